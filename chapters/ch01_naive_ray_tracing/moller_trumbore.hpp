@@ -1,0 +1,46 @@
+/// @file
+/// The ray-triangle test of Möller & Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection".
+#pragma once
+
+#include <concepts>
+#include <optional>
+
+#include "common/accelerator.hpp"
+
+namespace space {
+
+/// A ray-triangle test: a hit of the ray with the closed triangle, its index left at 0, or nothing.
+/// chapter 2 holds many of them side by side.
+template <class T>
+concept TriangleTest = requires(const Ray& ray, const Triangle& triangle) {
+    { T::intersect(ray, triangle) } -> std::same_as<std::optional<Hit>>;
+};
+
+/// Solves origin + t direction = a + u (b - a) + v (c - a) by Cramer's rule. The coordinates are floats and the
+/// arithmetic is double: in float the test misses rays near the edges (chapter 2 counts them). The result
+/// is rounded to float once, and t is compared with the interval after rounding, so that the nearest
+/// hit does not depend on the order in which triangles are tested.
+struct MollerTrumbore {
+    // [moller_trumbore]
+    static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
+        const Double3 direction{ray.direction};
+        const Double3 a{triangle.a}, ab = Double3(triangle.b) - a, ac = Double3(triangle.c) - a;
+        const Double3 p = glm::cross(direction, ac);
+        const double determinant = glm::dot(p, ab);
+        if (determinant == 0.0) return std::nullopt;  // parallel to the triangle, or a triangle without area
+
+        const Double3 s = Double3(ray.origin) - a;
+        const double u = glm::dot(p, s) / determinant;
+        if (!(u >= 0.0 && u <= 1.0)) return std::nullopt;
+        const Double3 q = glm::cross(s, ab);
+        const double v = glm::dot(q, direction) / determinant;
+        if (!(v >= 0.0 && u + v <= 1.0)) return std::nullopt;
+
+        const auto t = static_cast<float>(glm::dot(q, ac) / determinant);
+        if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;  // also where t is not a number
+        return Hit{.t = t, .u = static_cast<float>(u), .v = static_cast<float>(v)};
+    }
+    // [moller_trumbore]
+};
+
+}  // namespace space

@@ -1,0 +1,40 @@
+/// @file
+/// The options that every chapter's program understands.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace space {
+
+struct Options {
+    std::string scene;                  ///< --scene NAME, NAME:SIZE or FILE
+    bool small = false;                 ///< --small: counts only, in a second or two; what the tests run
+    bool quick = false;                 ///< --quick: fewer sizes and rounds
+    std::filesystem::path out = ".";    ///< --out DIR: pictures, figures, results
+    unsigned threads = 0;               ///< --threads N; parse_options turns 0 into the machine's count
+    std::uint64_t seed = 1;             ///< --seed S
+    int width = 640, height = 480;      ///< --size WxH
+    std::optional<std::string> figure;  ///< --figure ID (or "all"): draw into --out and do nothing else
+};
+
+struct ProgramInfo {
+    std::string name;   ///< "ch01_naive_ray_tracing"
+    std::string about;  ///< first line of --help
+    Options defaults;
+};
+
+/// Parses the command line. `more` may add options of the program's own to the parser. --help prints and exits 0.
+/// @throws Error (usage) with one line for anything absurd
+Options parse_options(int argc, char** argv, const ProgramInfo& program,
+                      const std::function<void(CLI::App&)>& more = {});
+
+}  // namespace space

@@ -1,0 +1,37 @@
+/// @file
+/// The results file of a program: the answers to the sources' claims, and the series behind its charts.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace space {
+
+/// confirmed, refuted, or depends (on what `measured` says). Always computed from a measurement.
+enum class Verdict { confirmed, refuted, depends };
+
+struct ClaimAnswer {
+    std::string claim;     ///< id in the ledger, such as "H1"
+    Verdict verdict;
+    std::string measured;  ///< one sentence with the numbers
+    std::string scene;     ///< what it was measured on
+    std::string rule;      ///< how the verdict follows from the number, such as "slope within 0.9 .. 1.1"
+};
+
+/// Collected by a chapter's program, written once at its end as JSON with the machine and the date.
+struct Results {
+    std::string chapter;  ///< "ch01_naive_ray_tracing"
+    bool small = false;   ///< made with --small: counts are right, times mean nothing
+    std::vector<ClaimAnswer> answers;
+};
+
+/// Processor name, cores, compiler: what a measurement must be read with.
+std::string machine_description();
+/// Today as YYYY-MM-DD; SOURCE_DATE_EPOCH is honoured.
+std::string today();
+
+/// @throws Error (bad_output)
+void write_results(const std::filesystem::path& file, const Results& results);
+
+}  // namespace space
