@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -33,6 +34,9 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image);
 
 /// Several pictures of the same height in a row, `gap` white pixels between them.
 Image side_by_side(const std::vector<Image>& images, int gap = 8);
+
+/// The picture as the bytes of a PNG file.
+std::string png_bytes(const Image& image);
 
 /// @throws Error (bad_output)
 void write_png(const std::filesystem::path& file, const Image& image);

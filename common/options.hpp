@@ -37,4 +37,10 @@ struct ProgramInfo {
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
                       const std::function<void(CLI::App&)>& more = {});
 
+/// --threads, --seed and --size, for programs that have other options than a chapter's.
+void add_common_options(CLI::App& app, Options& options);
+
+/// Parses; --help prints and exits 0. @throws Error (usage) with one line that says what is wrong
+void parse_command_line(CLI::App& app, int argc, const char* const* argv);
+
 }  // namespace space
