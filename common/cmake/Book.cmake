@@ -1,4 +1,7 @@
 # What the project's CMakeLists.txt files are written in: one line per chapter, exercise, figure and test.
+# docs/adding_a_chapter.md shows them at work.
+
+set(BOOK_SANITIZE "" CACHE STRING "sanitizers for everything, as in -fsanitize=: \"address,undefined\" or \"thread\"")
 
 # Warnings are errors in our code; other people's headers are system headers. Floating point is never contracted or
 # reordered: exact signs and equal results on every machine depend on it (DESIGN: accuracy).
@@ -7,18 +10,168 @@ target_compile_features(book_flags INTERFACE cxx_std_20)
 target_compile_options(book_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
                                             -ffp-contract=off)
 target_include_directories(book_flags INTERFACE ${PROJECT_SOURCE_DIR})
+if(BOOK_SANITIZE)
+    # Tests may ask for BOOK_SANITIZED to take smaller sizes: sanitized code is some ten times slower.
+    target_compile_options(book_flags INTERFACE -fsanitize=${BOOK_SANITIZE} -fno-sanitize-recover=all
+                                                -fno-omit-frame-pointer)
+    target_compile_definitions(book_flags INTERFACE BOOK_SANITIZED=1)
+    target_link_options(book_flags INTERFACE -fsanitize=${BOOK_SANITIZE})
+endif()
+
+# book_built("what")  book_left_out("what" "why")
+# One line each in the list that ends the configuring.
+function(book_built what)
+    set_property(GLOBAL APPEND PROPERTY BOOK_BUILT "${what}")
+endfunction()
+function(book_left_out what why)
+    set_property(GLOBAL APPEND PROPERTY BOOK_LEFT_OUT "${what}: ${why}")
+endfunction()
+function(book_print_summary)
+    get_property(built GLOBAL PROPERTY BOOK_BUILT)
+    get_property(left_out GLOBAL PROPERTY BOOK_LEFT_OUT)
+    message(STATUS "Built:")
+    foreach(line IN LISTS built)
+        message(STATUS "  + ${line}")
+    endforeach()
+    if(left_out)
+        message(STATUS "Left out:")
+        foreach(line IN LISTS left_out)
+            message(STATUS "  - ${line}")
+        endforeach()
+    endif()
+endfunction()
+
+# "ch05_lazy_kd_trees" -> "ch05"
+function(book_short_name chapter result)
+    string(REGEX MATCH "^ch[0-9][0-9]" short ${chapter})
+    set(${result} ${short} PARENT_SCOPE)
+endfunction()
 
 # add_chapter(ch05_lazy_kd_trees [BUILDS_ON ch04_kd_trees ...])
-# Builds chapters/<name>/{main,figures}.cpp (what there is) into the program <name>.
+# Builds the chapter's *.cpp (main.cpp, figures.cpp) into the program <name>, and tests that --small prints
+# expected_small.txt. The chapter's own CMakeLists.txt holds its exercises and figures.
 function(add_chapter name)
     cmake_parse_arguments(ARG "" "" "BUILDS_ON" ${ARGN})
     set(dir ${PROJECT_SOURCE_DIR}/chapters/${name})
+    book_short_name(${name} short)
     file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)
     set_property(GLOBAL APPEND PROPERTY BOOK_CHAPTERS ${name})
     set_property(GLOBAL PROPERTY BOOK_${name}_BUILDS_ON ${ARG_BUILDS_ON})
-    if(sources)
-        add_executable(${name} ${sources})
-        target_link_libraries(${name} PRIVATE book_common book_flags)
-        set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+    if(NOT sources)
+        book_left_out("chapter ${name}" "it has no program yet")
+        return()
+    endif()
+    add_executable(${name} ${sources})
+    target_link_libraries(${name} PRIVATE book_common book_flags)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+    set_property(GLOBAL APPEND PROPERTY BOOK_PROGRAMS ${name})
+    book_built("chapter ${name}")
+
+    if(EXISTS ${dir}/expected_small.txt)
+        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}>
+                 -D EXPECTED=${dir}/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${name}
+                 -P ${PROJECT_SOURCE_DIR}/tests/house/compare_small.cmake)
+        set_tests_properties(${short}.small PROPERTIES LABELS chapter TIMEOUT 300)
+    endif()
+    if(EXISTS ${dir}/CMakeLists.txt)
+        add_subdirectory(${dir} ${PROJECT_BINARY_DIR}/chapters/${name})
+    endif()
+endfunction()
+
+# add_figure(ch01_naive_ray_tracing fig_01_03 drawing|rendering|chart "caption")
+# Names a figure that the chapter's program makes with --figure. Drawings and renderings have the same bytes
+# everywhere: a test makes them again and compares them with those in figures/. Charts show measured times.
+function(add_figure chapter id kind caption)
+    if(NOT kind MATCHES "^(drawing|rendering|chart)$")
+        message(FATAL_ERROR "add_figure ${id}: kind ${kind} is none of drawing, rendering, chart")
+    endif()
+    string(REPLACE "\\" "\\\\" caption "${caption}")
+    string(REPLACE "\"" "\\\"" caption "${caption}")
+    string(REPLACE ";" "\\;" caption "${caption}")
+    set_property(GLOBAL APPEND PROPERTY BOOK_FIGURES
+                 "{\"id\": \"${id}\", \"chapter\": \"${chapter}\", \"kind\": \"${kind}\", \"caption\": \"${caption}\"}")
+    if(kind STREQUAL "chart")
+        return()
+    endif()
+    book_short_name(${chapter} short)
+    set(suffix svg)
+    if(kind STREQUAL "rendering")
+        set(suffix png)
+    endif()
+    add_test(NAME ${short}.${id} COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}> -D FIGURE=${id}
+             -D SUFFIX=${suffix} -D REFERENCES=${PROJECT_SOURCE_DIR}/figures -D OUT=${PROJECT_BINARY_DIR}/figures
+             -P ${PROJECT_SOURCE_DIR}/tests/house/compare_figure.cmake)
+    set_tests_properties(${short}.${id} PROPERTIES LABELS figure TIMEOUT 300)
+endfunction()
+
+# add_exercise(ch01_naive_ray_tracing ex01_erased_hit)
+# Compiles checks/<name>.cpp three times: against the reader's exercises/<name>.hpp, the solution and the near miss.
+# Tests: the untouched stub fails by its checks, the solution passes, the near miss is caught.
+function(add_exercise chapter name)
+    book_short_name(${chapter} short)
+    set(dir ${PROJECT_SOURCE_DIR}/chapters/${chapter})
+    set_property(GLOBAL APPEND PROPERTY BOOK_EXERCISES "${chapter}/${name}")
+    if(NOT TARGET book_catch_main)
+        return()
+    endif()
+    foreach(variant exercise solution near_miss)
+        set(folder ${variant}s)
+        if(variant STREQUAL "near_miss")
+            set(folder near_misses)
+        endif()
+        set(target ${short}.${name}.${variant})
+        if(NOT EXISTS ${dir}/checks/${name}.cpp OR NOT EXISTS ${dir}/${folder}/${name}.hpp)
+            continue()  # the test "every exercise is whole" tells
+        endif()
+        add_executable(${target} ${dir}/checks/${name}.cpp)
+        target_include_directories(${target} PRIVATE ${dir}/${folder})
+        target_link_libraries(${target} PRIVATE book_catch_main book_common book_flags)
+        set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/exercises)
+        add_test(NAME ${target} COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${target}> -D VARIANT=${variant}
+                 -D "CATCH_ARGUMENTS=${BOOK_CATCH_ARGUMENTS}" -D FILE=${dir}/${folder}/${name}.hpp
+                 -P ${PROJECT_SOURCE_DIR}/tests/house/exercise_verdict.cmake)
+        set_tests_properties(${target} PROPERTIES LABELS exercise TIMEOUT 120)
+        if(variant STREQUAL "exercise")
+            set_tests_properties(${target} PROPERTIES SKIP_REGULAR_EXPRESSION "verdict: solved by a reader")
+        endif()
+    endforeach()
+endfunction()
+
+# add_book_test(name SOURCES a.cpp ... [LIBRARIES ...] [LABELS ...])
+# A Catch2 program and a test that runs it; a program without test cases fails. Label no_sanitizer: left out of the
+# sanitized runs of ./book test.
+function(add_book_test name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE book_catch_main book_common book_flags ${ARG_LIBRARIES})
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    add_test(NAME ${name} COMMAND ${name} ${BOOK_CATCH_ARGUMENTS})
+    set_tests_properties(${name} PROPERTIES LABELS "unit;${ARG_LABELS}" TIMEOUT 900)
+endfunction()
+
+# The lists that the command, the tests and the pages read: figures.json, exercises.txt, chapters.txt.
+function(book_write_lists)
+    get_property(figures GLOBAL PROPERTY BOOK_FIGURES)
+    list(JOIN figures ",\n " figures)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/figures.json CONTENT "[${figures}]\n" @ONLY)
+
+    get_property(exercises GLOBAL PROPERTY BOOK_EXERCISES)
+    list(JOIN exercises "\n" exercises)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/exercises.txt CONTENT "${exercises}\n" @ONLY)
+
+    get_property(chapters GLOBAL PROPERTY BOOK_CHAPTERS)
+    set(lines "")
+    foreach(chapter IN LISTS chapters)
+        get_property(below GLOBAL PROPERTY BOOK_${chapter}_BUILDS_ON)
+        list(JOIN below " " below)
+        string(APPEND lines "${chapter} ${below}\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/chapters.txt CONTENT "${lines}" @ONLY)
+
+    # All chapters' programs and nothing else: what a reader needs, whatever state the exercises are in.
+    get_property(programs GLOBAL PROPERTY BOOK_PROGRAMS)
+    add_custom_target(programs)
+    if(programs)
+        add_dependencies(programs ${programs})
     endif()
 endfunction()

@@ -1,0 +1,17 @@
+# Makes FIGURE with PROGRAM and compares it with the reference in figures/, byte for byte.
+set(made "${OUT}/${FIGURE}.${SUFFIX}")
+set(reference "${REFERENCES}/${FIGURE}.${SUFFIX}")
+file(REMOVE "${made}")
+execute_process(COMMAND "${PROGRAM}" --figure ${FIGURE} --out "${OUT}" RESULT_VARIABLE result)
+if(NOT result STREQUAL "0")
+    message(FATAL_ERROR "${PROGRAM} --figure ${FIGURE}: ended with ${result}")
+endif()
+if(NOT EXISTS "${reference}")
+    message(FATAL_ERROR "${reference} is not there; look at ${made}, then run ./book figures --update ${FIGURE}")
+endif()
+file(SHA256 "${made}" hash_made)
+file(SHA256 "${reference}" hash_reference)
+if(NOT hash_made STREQUAL hash_reference)
+    message(FATAL_ERROR "${made} differs from ${reference}; if it is meant to, look at it and run "
+                        "./book figures --update ${FIGURE}")
+endif()

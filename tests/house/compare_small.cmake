@@ -1,0 +1,15 @@
+# Runs PROGRAM --small with one thread and with three, and compares what it prints with EXPECTED, byte for byte.
+foreach(threads 1 3)
+    file(REMOVE_RECURSE "${OUT}")
+    file(MAKE_DIRECTORY "${OUT}")
+    execute_process(COMMAND "${PROGRAM}" --small --threads ${threads} --out "${OUT}"
+                    OUTPUT_FILE "${OUT}/small.txt" RESULT_VARIABLE result)
+    if(NOT result STREQUAL "0")
+        message(FATAL_ERROR "${PROGRAM} --small --threads ${threads}: ended with ${result}")
+    endif()
+    execute_process(COMMAND diff -u "${EXPECTED}" "${OUT}/small.txt" RESULT_VARIABLE result OUTPUT_VARIABLE difference)
+    if(NOT result STREQUAL "0")
+        message("${difference}")
+        message(FATAL_ERROR "--small --threads ${threads} prints something else than ${EXPECTED}")
+    endif()
+endforeach()
