@@ -48,12 +48,12 @@ struct TraversalCounts {
 
 /// Size and shape of a structure; a field without a meaning for it stays empty.
 struct TreeShape {
-    std::optional<std::size_t> nodes;   ///< inner nodes and leaves
-    std::optional<std::size_t> leaves;
-    std::optional<std::size_t> depth;   ///< edges from the root to the deepest leaf
+    std::optional<std::size_t> nodes = {};   ///< inner nodes and leaves
+    std::optional<std::size_t> leaves = {};
+    std::optional<std::size_t> depth = {};   ///< edges from the root to the deepest leaf
     std::size_t references = 0;         ///< triangle entries over all leaves, duplicates counted
     std::size_t bytes = 0;              ///< memory that the structure holds
-    std::optional<double> sah_cost;     ///< expected cost of a random ray, by the structure's own constants
+    std::optional<double> sah_cost = {};     ///< expected cost of a random ray, by the structure's own constants
 };
 
 /// What can be asked of any structure. closest_hit: the hit with the smallest t in [tmin, tmax]; any_hit:

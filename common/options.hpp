@@ -16,14 +16,14 @@ class App;
 namespace space {
 
 struct Options {
-    std::string scene;                  ///< --scene NAME, NAME:SIZE or FILE
+    std::string scene = {};             ///< --scene NAME, NAME:SIZE or FILE
     bool small = false;                 ///< --small: counts only, in a second or two; what the tests run
     bool quick = false;                 ///< --quick: fewer sizes and rounds
     std::filesystem::path out = ".";    ///< --out DIR: pictures, figures, results
     unsigned threads = 0;               ///< --threads N; parse_options turns 0 into the machine's count
     std::uint64_t seed = 1;             ///< --seed S
     int width = 640, height = 480;      ///< --size WxH
-    std::optional<std::string> figure;  ///< --figure ID (or "all"): draw into --out and do nothing else
+    std::optional<std::string> figure = {};  ///< --figure ID (or "all"): draw into --out and do nothing else
 };
 
 struct ProgramInfo {
