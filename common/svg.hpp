@@ -1,6 +1,12 @@
 /// @file
-/// A small SVG writer for the book's drawings: the same bytes for the same calls, ids on the elements, colours as
-/// CSS variables that follow light and dark pages, one palette and one line weight.
+/// A small SVG writer for the book's drawings: the same bytes for the same calls, ids on the elements, one palette,
+/// one line weight.
+///
+/// Colours follow light and dark pages. Every element carries its light colour as a plain attribute, so that any
+/// program can show the file; the style block maps each of them to a CSS variable (`[stroke="#0072b2"]` to
+/// `var(--blue)`), which the figure sets itself: to its light values, to its dark ones where the reader's system is
+/// dark, and, inlined into a page, to those of the class `light-mode` or `dark-mode` on the page's `<html>`, which
+/// win. The styles hold within `svg.book-figure` only, so many figures can stand in one page.
 #pragma once
 
 #include <optional>
@@ -12,23 +18,38 @@
 
 namespace space {
 
-/// Names of the shared colour-blind-safe palette (Okabe & Ito 2008), and of ink, paper and quiet greys.
+class Image;
+
+/// Names of the shared colour-blind-safe palette (Okabe & Ito 2008), and of ink, paper and quiet greys. Yellow, sky
+/// and orange are for areas and lines: as text they are too pale.
 enum class Ink { ink, paper, quiet, faint, blue, orange, green, vermillion, sky, yellow, purple };
 
+/// Lines of every drawing and chart, in drawing units.
+inline constexpr double line_weight = 2.0;
+
 struct Style {
-    Ink stroke = Ink::ink;
-    double width = 1.5;            ///< in drawing units; 0 draws no line
+    std::optional<Ink> stroke = Ink::ink;  ///< empty: no line
+    std::optional<Ink> fill = {};          ///< empty: not filled
+    double opacity = 1.0;                  ///< of the filling
     bool dashed = false;
-    std::optional<Ink> fill = {};  ///< empty: not filled
-    double fill_opacity = 1.0;
-    bool arrow = false;            ///< an arrow head at the end of a line
+    bool arrow = false;  ///< a head at the end of a line or polyline
 };
 
 enum class Anchor { start, middle, end };
 
-/// Drawing units with y *downwards*, as in SVG; a page is about 640 units wide. `id` may be empty.
+struct TextStyle {
+    Anchor anchor = Anchor::middle;
+    Ink ink = Ink::ink;
+    double size = 18;  ///< in drawing units; below 16 nobody can read it on a phone
+    bool bold = false;
+    bool halo = false;  ///< a rim in the colour of the paper, for text over lines
+};
+
+/// Drawing units with y *downwards*, as in SVG; a drawing is about 640 units wide. An id may be empty; others are
+/// written as FIGURE-id, unique in a page of many figures.
 class Svg {
   public:
+    /// The title is read aloud in place of the drawing: one sentence that says what it shows.
     Svg(std::string figure_id, std::string title, double width, double height);
 
     void line(Point2 a, Point2 b, const Style& style = {}, std::string_view id = {});
@@ -36,20 +57,33 @@ class Svg {
     void polygon(const std::vector<Point2>& points, const Style& style = {}, std::string_view id = {});
     void rect(Point2 corner, Vector2 size, const Style& style = {}, std::string_view id = {});
     void circle(Point2 centre, double radius, const Style& style = {}, std::string_view id = {});
-    /// Text may hold "_" for a subscript of one character and "*word*" for italics: "t_1", "*n*".
-    void text(Point2 at, std::string_view text, Anchor anchor = Anchor::middle, Ink ink = Ink::ink, double size = 16,
-              std::string_view id = {});
+    /// `at` is on the base line. The text may hold "*word*" for italics and "_" for a subscript of one character or
+    /// of "{several}": "*t*_{min}".
+    void text(Point2 at, std::string_view text, const TextStyle& style = {}, std::string_view id = {});
     /// Groups what follows up to end_group under an id of its own, for scripts that show and hide it.
     void begin_group(std::string_view id);
     void end_group();
-    /// Pixels as an embedded picture (base64 PNG), scaled without smoothing.
-    void picture(Point2 corner, Vector2 size, const class Image& image, std::string_view id = {});
+    /// Pixels as an embedded PNG, scaled without smoothing.
+    void picture(Point2 corner, Vector2 size, const Image& image, std::string_view id = {});
 
     std::string document() const;
 
   private:
+    void element(std::string_view tag, const std::string& attributes, std::string_view id);
+    void arrow_head(Point2 from, Point2 tip, const Style& style);
+
     std::string figure_id_, title_, body_;
     double width_, height_;
+    int open_groups_ = 0;
 };
+
+/// What every figure begins with: the svg tag, the title, the style block and the paper. Ends before "</svg>".
+std::string svg_opening(std::string_view figure_id, std::string_view title, double width, double height);
+/// The light value of a colour, "#0072b2": what stands in the elements' attributes.
+std::string_view svg_color(Ink ink);
+/// Text as it may stand in an element or in an attribute; control characters, which XML forbids, become U+FFFD.
+std::string svg_escaped(std::string_view text);
+/// At most two decimals, never "-0". @throws std::invalid_argument where the number is not finite
+std::string svg_number(double value);
 
 }  // namespace space
