@@ -104,6 +104,20 @@ function(add_figure chapter id kind caption)
     set_tests_properties(${short}.${id} PROPERTIES LABELS figure TIMEOUT 300)
 endfunction()
 
+# Catch2, compiled once; a program without test cases fails (version 3 does that unasked).
+find_package(Catch2)
+if(NOT Catch2_FOUND)
+    book_left_out("unit tests and checks of exercises" "Catch2 is not installed (package catch2)")
+elseif(Catch2_VERSION VERSION_LESS 3)
+    add_library(book_catch_main OBJECT ${PROJECT_SOURCE_DIR}/tests/catch_main.cpp)
+    target_link_libraries(book_catch_main PRIVATE book_flags PUBLIC Catch2::Catch2)
+    set(BOOK_CATCH_ARGUMENTS -w NoTests)
+else()
+    add_library(book_catch_main INTERFACE)
+    target_link_libraries(book_catch_main INTERFACE Catch2::Catch2WithMain)
+    set(BOOK_CATCH_ARGUMENTS)
+endif()
+
 # add_exercise(ch01_naive_ray_tracing ex01_erased_hit)
 # Compiles checks/<name>.cpp three times: against the reader's exercises/<name>.hpp, the solution and the near miss.
 # Tests: the untouched stub fails by its checks, the solution passes, the near miss is caught.
