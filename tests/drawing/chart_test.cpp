@@ -111,7 +111,7 @@ TEST_CASE("text in a chart is text: not a script, not markup") {
     write_chart(folder.path, chart);
     CHECK_FALSE(fs::exists(trace));
     const std::string svg = read_file(folder.path / "fig_99_01.svg");
-    CHECK(contains(svg, ">&lt;b&gt; &amp; {/=30 big} x_1 \\n</text>"));
+    CHECK(contains(svg, ">&lt;b> &amp; {/=30 big} x_1 \\n</text>"));
     CHECK(contains(svg, "` @GPVAL $HOME</text>"));
 }
 
