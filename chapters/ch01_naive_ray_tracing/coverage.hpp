@@ -75,7 +75,7 @@ inline Coverage compare_coverage(const Scene& scene, const DepthBuffer& traced, 
             if (distance <= limit) {
                 ++coverage.near_edge;
                 coverage.farthest = std::max(coverage.farthest, distance);
-            } else if (std::abs(double{one.t} - other.t) <= same_depth_tolerance * one.t) {
+            } else if (std::abs(double{one.t} - other.t) <= same_depth_tolerance * std::min(one.t, other.t)) {
                 ++coverage.same_depth;
             } else {
                 ++coverage.unexplained;
