@@ -55,6 +55,9 @@ void add(Scene& scene, const TriangleMesh& mesh, const Color& color);
 /// A light at `position` that makes a white surface at `lit`, facing it, as bright as `brightness`.
 void add_light(Scene& scene, const Double3& position, const Double3& lit, const Color& brightness);
 
+/// A light at the camera's eye, for its target: it throws no shadow that is seen, and leaves no other one black.
+void add_eye_light(Scene& scene, const Color& brightness);
+
 /// The linear colour of an sRGB triple such as 0xC8553D.
 Color srgb(std::uint32_t rgb);
 

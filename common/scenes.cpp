@@ -19,9 +19,21 @@ struct Maker {
 constexpr Maker makers[] = {
     {{"room", "a lit room with a teapot on a table; SIZE: the teapot's detail, or a mesh file to put there", 6, 2, 200},
      make_room},
-    {{"sphereflake", "spheres on spheres: SIZE levels, each nine times as many", 2, 1, 6}, make_sphereflake},
+    {{"sphereflake", "spheres on spheres; SIZE: levels, each with nine times as many", 2, 1, 6}, make_sphereflake},
+    {{"tetra", "Sierpinski's tetrahedron, most rays pass through; SIZE: levels, 4^SIZE triangles", 6, 4, 11},
+     make_tetra},
+    {{"tree", "a forking tree on a huge field; SIZE: levels of branches", 7, 3, 14}, make_tree},
+    {{"mount", "a fractal mountain; SIZE: levels, 2 * 4^SIZE triangles and four balls", 5, 3, 11}, make_mount},
+    {{"lattice", "balls joined by rods along the axes; SIZE: cells along an edge", 4, 1, 40}, make_lattice},
+    {{"shells", "a shell of overlapping balls of many sizes; SIZE: 180 * 2^SIZE + 1 balls", 1, 1, 8}, make_shells},
+    {{"icosphere", "a geodesic sphere; SIZE: its frequency, 20 SIZE^2 triangles", 12, 4, 1000}, make_icosphere},
     {{"soup", "SIZE random triangles of equal size in the unit cube", 2000, 200, 20'000'000}, make_soup},
-    {{"icosphere", "a geodesic sphere of frequency SIZE: 20 SIZE^2 triangles", 12, 4, 1000}, make_icosphere},
+    {{"soup_uneven", "SIZE random triangles whose sizes differ by orders of magnitude", 2000, 200, 20'000'000},
+     make_soup_uneven},
+    {{"slivers", "SIZE triangles, each as long as the scene and very thin", 1000, 200, 20'000'000}, make_slivers},
+    {{"boxes", "a town of SIZE axis-aligned boxes", 400, 36, 1'000'000}, make_boxes},
+    {{"stadium", "a teapot in a stadium: nearly everything in one small place; SIZE: the teapot's detail", 12, 2, 300},
+     make_stadium},
 };
 
 const Maker* find_maker(std::string_view name) {
