@@ -41,6 +41,14 @@ function(book_print_summary)
     endif()
 endfunction()
 
+# All chapters' programs and nothing else: what a reader needs, whatever state the exercises are in.
+add_custom_target(programs)
+add_custom_target(benchmarks)
+find_package(benchmark QUIET)
+if(NOT benchmark_FOUND)
+    book_left_out("benchmarks" "Google Benchmark is not installed (package libbenchmark-dev)")
+endif()
+
 # "ch05_lazy_kd_trees" -> "ch05"
 function(book_short_name chapter result)
     string(REGEX MATCH "^ch[0-9][0-9]" short ${chapter})
@@ -49,12 +57,14 @@ endfunction()
 
 # add_chapter(ch05_lazy_kd_trees [BUILDS_ON ch04_kd_trees ...])
 # Builds the chapter's *.cpp (main.cpp, figures.cpp) into the program <name>, and tests that --small prints
-# expected_small.txt. The chapter's own CMakeLists.txt holds its exercises and figures.
+# expected_small.txt; its benchmarks.cpp becomes the program chNN_benchmarks. The chapter's own CMakeLists.txt holds its
+# exercises and figures.
 function(add_chapter name)
     cmake_parse_arguments(ARG "" "" "BUILDS_ON" ${ARGN})
     set(dir ${PROJECT_SOURCE_DIR}/chapters/${name})
     book_short_name(${name} short)
     file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)
+    list(REMOVE_ITEM sources ${dir}/benchmarks.cpp)
     set_property(GLOBAL APPEND PROPERTY BOOK_CHAPTERS ${name})
     set_property(GLOBAL PROPERTY BOOK_${name}_BUILDS_ON ${ARG_BUILDS_ON})
     if(NOT sources)
@@ -64,9 +74,15 @@ function(add_chapter name)
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE book_common book_flags)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-    set_property(GLOBAL APPEND PROPERTY BOOK_PROGRAMS ${name})
+    add_dependencies(programs ${name})
     book_built("chapter ${name}")
 
+    if(EXISTS ${dir}/benchmarks.cpp AND benchmark_FOUND)
+        add_executable(${short}_benchmarks EXCLUDE_FROM_ALL ${dir}/benchmarks.cpp)
+        target_link_libraries(${short}_benchmarks PRIVATE book_common book_flags benchmark::benchmark_main)
+        set_target_properties(${short}_benchmarks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+        add_dependencies(benchmarks ${short}_benchmarks)
+    endif()
     if(EXISTS ${dir}/expected_small.txt)
         add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}>
                  -D EXPECTED=${dir}/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${name}
@@ -181,11 +197,4 @@ function(book_write_lists)
         string(APPEND lines "${chapter} ${below}\n")
     endforeach()
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/chapters.txt CONTENT "${lines}" @ONLY)
-
-    # All chapters' programs and nothing else: what a reader needs, whatever state the exercises are in.
-    get_property(programs GLOBAL PROPERTY BOOK_PROGRAMS)
-    add_custom_target(programs)
-    if(programs)
-        add_dependencies(programs ${programs})
-    endif()
 endfunction()
