@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "common/mesh.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+#include "tests/lab/files.hpp"
 #include "tests/lab/process.hpp"
 
 using namespace space;
@@ -63,24 +63,6 @@ std::vector<Ray> random_rays(std::size_t count) {
         if (random.below(4) == 0) ray.tmax = ray.tmin + random.uniform();
     }
     return rays;
-}
-
-void write_rays(const std::filesystem::path& file, std::span<const Ray> rays) {
-    std::string bytes;
-    for (const Ray& ray : rays) {
-        const auto& [o, d, tmin, tmax] = ray;
-        const std::array<float, 8> record{o.x, o.y, o.z, tmin, d.x, d.y, d.z, tmax};
-        bytes.append(reinterpret_cast<const char*>(record.data()), sizeof record);
-    }
-    write_file(file, bytes);
-}
-
-std::vector<HitRecord> read_hits(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file);
-    REQUIRE(bytes.size() % sizeof(HitRecord) == 0);
-    std::vector<HitRecord> hits(bytes.size() / sizeof(HitRecord));
-    std::memcpy(hits.data(), bytes.data(), bytes.size());
-    return hits;
 }
 
 std::size_t lines(const std::string& text) {
