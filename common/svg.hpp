@@ -63,7 +63,7 @@ class Svg {
     /// Groups what follows up to end_group under an id of its own, for scripts that show and hide it.
     void begin_group(std::string_view id);
     void end_group();
-    /// Pixels as an embedded PNG, scaled without smoothing.
+    /// Pixels as an embedded PNG; drawn twice as large or larger, as squares with sharp sides.
     void picture(Point2 corner, Vector2 size, const Image& image, std::string_view id = {});
 
     std::string document() const;
