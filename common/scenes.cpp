@@ -16,16 +16,31 @@ struct Maker {
     void (*make)(Scene& scene, std::uint32_t size, std::uint64_t seed);
 };
 
+/// Where Debian's glmark2-data puts the Stanford bunny of 69,666 triangles.
+constexpr const char* bunny_file = "/usr/share/glmark2/models/bunny.obj";
+
+TriangleMesh load_bunny() {
+    if (!std::filesystem::exists(bunny_file))
+        throw input_error(fmt::format("{}: not there; it comes with Debian's package glmark2-data", bunny_file));
+    return load_mesh(bunny_file);
+}
+
+void make_bunny(Scene& scene, std::uint32_t, std::uint64_t) {
+    scene.mesh = load_bunny();
+    frame_mesh(scene);
+}
+
 constexpr Maker makers[] = {
-    {{"room", "a lit room with a teapot on a table; SIZE: the teapot's detail, or a mesh file to put there", 6, 2, 200},
+    {{"room", "a lit room with a teapot on a table; SIZE: the teapot's detail, or 'bunny' or a mesh file to put there",
+      6, 2, 200},
      make_room},
     {{"sphereflake", "spheres on spheres; SIZE: levels, each with nine times as many", 2, 1, 6}, make_sphereflake},
     {{"tetra", "Sierpinski's tetrahedron, most rays pass through; SIZE: levels, 4^SIZE triangles", 6, 4, 11},
      make_tetra},
     {{"tree", "a forking tree on a huge field; SIZE: levels of branches", 7, 3, 14}, make_tree},
-    {{"mount", "a fractal mountain; SIZE: levels, 2 * 4^SIZE triangles and four balls", 5, 3, 11}, make_mount},
+    {{"mount", "a fractal mountain; SIZE: levels, 2 * 4^SIZE triangles and four balls", 6, 3, 11}, make_mount},
     {{"lattice", "balls joined by rods along the axes; SIZE: cells along an edge", 4, 1, 40}, make_lattice},
-    {{"shells", "a shell of overlapping balls of many sizes; SIZE: 180 * 2^SIZE + 1 balls", 1, 1, 8}, make_shells},
+    {{"shells", "a shell of overlapping balls of many sizes; SIZE: 180 * 2^SIZE + 1 balls", 2, 1, 8}, make_shells},
     {{"icosphere", "a geodesic sphere; SIZE: its frequency, 20 SIZE^2 triangles", 12, 4, 1000}, make_icosphere},
     {{"soup", "SIZE random triangles of equal size in the unit cube", 2000, 200, 20'000'000}, make_soup},
     {{"soup_uneven", "SIZE random triangles whose sizes differ by orders of magnitude", 2000, 200, 20'000'000},
@@ -34,6 +49,8 @@ constexpr Maker makers[] = {
     {{"boxes", "a town of SIZE axis-aligned boxes", 400, 36, 1'000'000}, make_boxes},
     {{"stadium", "a teapot in a stadium: nearly everything in one small place; SIZE: the teapot's detail", 12, 2, 300},
      make_stadium},
+    {{"building", "a doll's house of SIZE storeys, each of eight furnished rooms", 3, 1, 200}, make_building},
+    {{"bunny", "Stanford's bunny, where Debian's package glmark2-data is installed", 0, 0, 0}, make_bunny},
 };
 
 const Maker* find_maker(std::string_view name) {
@@ -94,7 +111,9 @@ Scene make_scene(std::string_view spec, std::uint64_t seed, bool small) {
         return scene;
     }
     const std::string_view argument = spec.substr(colon + 1);
-    if (name == "room" && argument.find_first_of("./") != std::string_view::npos)
+    if (name == "room" && argument == "bunny")
+        make_room_with(scene, load_bunny());
+    else if (name == "room" && argument.find_first_of("./") != std::string_view::npos)
         make_room_with(scene, load_mesh(std::string(argument)));
     else
         maker->make(scene, parse_size(maker->recipe, argument), seed);

@@ -50,12 +50,12 @@ void make_sphereflake(Scene& scene, std::uint32_t depth, std::uint64_t) {
     };
     grow(grow, Double3{0.0}, 0.5, {0, 0, 1}, 0);
 
-    scene.camera = {.eye = {2.1f, 1.3f, 1.7f}, .target = {0, 0, 0}, .up = {0, 0, 1}, .field_of_view = 45};
+    scene.camera = {.eye = {2.1f, 1.3f, 1.7f}, .target = {0.05f, 0.0f, -0.02f}, .up = {0, 0, 1}, .field_of_view = 38};
     scene.background = srgb(0xCFE0EA);
     add_light(scene, {4, 3, 2}, {0, 0, 0}, Color{0.75f, 0.70f, 0.62f});
     add_light(scene, {1, -4, 4}, {0, 0, 0}, Color{0.28f, 0.30f, 0.34f});
     add_light(scene, {-3, 1, 5}, {0, 0, 0}, Color{0.28f, 0.28f, 0.28f});
-    add_eye_light(scene, Color{0.10f, 0.10f, 0.12f});
+    add_eye_light(scene, Color{0.12f, 0.12f, 0.14f});
 }
 
 /// Sierpinski's tetrahedron on alternate corners of a cube: 4^depth triangles. Its tetrahedra touch in points.
@@ -77,9 +77,9 @@ void make_tetra(Scene& scene, std::uint32_t depth, std::uint64_t) {
     divide(divide, Double3{0.0}, 1.0, 1, 0);
 
     scene.camera = {.eye = {1.022846f, -3.177154f, -2.174512f},
-                    .target = {-0.004103f, -0.004103f, 0.216539f},
+                    .target = {-0.23f, -0.17f, 0.07f},
                     .up = {-0.816497f, -0.816497f, 0.816497f},
-                    .field_of_view = 45};
+                    .field_of_view = 37};
     scene.background = srgb(0x22313B);
     add_light(scene, {1.8, -4.0, 1.5}, {0, 0, 0}, Color{0.85f, 0.80f, 0.70f});
     add_light(scene, {4.0, -1.0, -4.0}, {0, 0, 0}, Color{0.25f, 0.30f, 0.36f});
@@ -101,7 +101,7 @@ void make_tree(Scene& scene, std::uint32_t depth, std::uint64_t) {
         const bool last = level == depth;
         const Color color = last ? leaves[leaf++ % 5] : bark;
         add(scene, tube({base, radius}, {end, radius * thinning}, 8, false), last ? srgb(0x5E7A3A) : bark);
-        add(scene, ball(end, radius * thinning * (last ? 2.2 : 1.0), 1), color);
+        add(scene, ball(end, last ? 0.4 * glm::length(frame[2]) : radius * thinning, 1), color);
         if (last) return;
         self(self, end, frame * rotation({0, 0, 1}, 90) * rotation({1, 0, 0}, 40) * glm::dmat3(0.65), radius * thinning,
              level + 1);
@@ -110,11 +110,12 @@ void make_tree(Scene& scene, std::uint32_t depth, std::uint64_t) {
     };
     grow(grow, {0, 0, 0}, glm::dmat3(1.0), 0.5 * widths_per_length, 0);
 
-    scene.camera = {.eye = {4.5f, 0.4f, 2.0f}, .target = {0.0f, 0.0f, 1.5f}, .up = {0, 0, 1}, .field_of_view = 45};
+    scene.camera = {.eye = {4.5f, 0.4f, 2.0f}, .target = {0.0f, 0.05f, 1.45f}, .up = {0, 0, 1}, .field_of_view = 40};
     scene.background = srgb(0xBFDCEC);
-    add_light(scene, {5.0, -3.5, 7.0}, {0, 0, 1}, Color{0.95f, 0.88f, 0.75f});
-    add_light(scene, {1.0, 6.0, 5.0}, {0, 0, 1}, Color{0.25f, 0.28f, 0.32f});
-    add_eye_light(scene, Color{0.15f, 0.16f, 0.18f});
+    // Far away, like the sun and the sky, so that the whole field is lit.
+    add_light(scene, {500, -350, 700}, {0, 0, 1}, Color{0.85f, 0.79f, 0.68f});
+    add_light(scene, {100, 600, 500}, {0, 0, 1}, Color{0.22f, 0.25f, 0.30f});
+    add_light(scene, {600, 50, 260}, {0, 0, 1}, Color{0.20f, 0.21f, 0.22f});
 }
 
 /// "mount": a square of 4^depth cells, each two triangles, raised by midpoint displacement (Fournier, Fussell &
@@ -173,10 +174,11 @@ void make_mount(Scene& scene, std::uint32_t depth, std::uint64_t seed) {
     for (int i = 0; i < 4; ++i)
         add(scene, ball(Double3{-0.8, 0.8, 1.0} + places[i] * (apart / std::sqrt(2.0)), r, 6), colors[i]);
 
-    scene.camera = {.eye = {-1.6f, 1.6f, 1.7f}, .target = {0, 0, 0}, .up = {0, 0, 1}, .field_of_view = 45};
+    scene.camera = {
+        .eye = {-2.9f, -0.55f, 1.75f}, .target = {-0.15f, 0.16f, 0.26f}, .up = {0, 0, 1}, .field_of_view = 43};
     scene.background = srgb(0xC4DDEB);
-    add_light(scene, {-3.2, -3.2, 3.4}, {0, 0, 0}, Color{1.0f, 0.92f, 0.80f});
-    add_eye_light(scene, Color{0.28f, 0.31f, 0.36f});
+    add_light(scene, {-2.0, -6.0, 4.5}, {0, 0, 0}, Color{0.85f, 0.78f, 0.68f});
+    add_eye_light(scene, Color{0.25f, 0.28f, 0.33f});
 }
 
 /// A lattice of (cells + 1)^3 balls joined by rods along the axes.
@@ -198,7 +200,7 @@ void make_lattice(Scene& scene, std::uint32_t cells, std::uint64_t) {
                         add(scene, tube({center, rod_radius}, {ends[axis], rod_radius}, 8, false), rods[axis]);
             }
     scene.camera = {
-        .eye = {-0.55f, -0.75f, 1.45f}, .target = {0.52f, 0.48f, 0.42f}, .up = {0, 0, 1}, .field_of_view = 48};
+        .eye = {-0.62f, -0.85f, 1.5f}, .target = {0.50f, 0.47f, 0.40f}, .up = {0, 0, 1}, .field_of_view = 48};
     scene.background = srgb(0x22313B);
     add_light(scene, {-1.6, -1.0, 2.6}, {0.5, 0.5, 0.5}, Color{0.80f, 0.75f, 0.66f});
     add_light(scene, {2.2, -1.6, 1.2}, {0.5, 0.5, 0.5}, Color{0.20f, 0.25f, 0.32f});
@@ -213,14 +215,14 @@ void make_shells(Scene& scene, std::uint32_t depth, std::uint64_t) {
     for (int i = -2 * steps / 3; i <= steps / 3; ++i) {
         const double angle = 18.0 * std::numbers::pi * i / steps, r = std::exp(0.15 * angle);
         const Double3 center{r * std::sin(angle), r * std::cos(angle), -2.0 * r};
-        const int stripe = ((i + steps) * 64 / steps) % 8;
-        add(scene, transformed(unit, glm::dmat3(r), center), colors[stripe < 4 ? 0 : stripe - 4]);
+        const int stripe = (i + steps) * 90 / steps;  // ten stripes a turn
+        add(scene, transformed(unit, glm::dmat3(r), center), colors[stripe % 4]);
     }
-    scene.camera = {.eye = {-6, -60, 35}, .target = {0, 8, -15}, .up = {0, 0, 1}, .field_of_view = 45};
+    scene.camera = {.eye = {-6, -60, 35}, .target = {-1.5f, 0.0f, -25.0f}, .up = {0, 0, 1}, .field_of_view = 36};
     scene.background = srgb(0x2A4453);
-    add_light(scene, {-40, -45, 60}, {0, 0, -15}, Color{0.85f, 0.80f, 0.72f});
+    add_light(scene, {-40, -45, 60}, {0, 0, -15}, Color{0.80f, 0.75f, 0.67f});
     add_light(scene, {50, -30, 10}, {0, 0, -15}, Color{0.18f, 0.22f, 0.28f});
-    add_eye_light(scene, Color{0.22f, 0.22f, 0.22f});
+    add_eye_light(scene, Color{0.20f, 0.20f, 0.20f});
 }
 
 }  // namespace space

@@ -57,7 +57,7 @@ void add_random_triangle(Scene& scene, double radius, Pcg32& random) {
 }
 
 void look_at_unit_cube(Scene& scene) {
-    scene.camera = {.eye = {1.65f, 1.25f, 2.35f}, .target = {0.5f, 0.47f, 0.5f}, .field_of_view = 36};
+    scene.camera = {.eye = {1.65f, 1.25f, 2.35f}, .target = {0.5f, 0.47f, 0.5f}, .field_of_view = 32};
     scene.background = srgb(0x1E2A33);
     add_light(scene, {1.2, 2.6, 2.2}, {0.5, 0.5, 0.5}, Color{1.1f, 1.02f, 0.9f});
     add_light(scene, {-1.5, 0.6, 1.8}, {0.5, 0.5, 0.5}, Color{0.30f, 0.36f, 0.44f});
@@ -84,10 +84,10 @@ void make_soup_uneven(Scene& scene, std::uint32_t triangles, std::uint64_t seed)
     look_at_unit_cube(scene);
 }
 
-/// Straws through the cube: triangles of length 1 and width 4 / N, so that a ray meets about as many for any N.
+/// Straws through the cube: triangles of length 1 and width 6 / N, so that a ray meets about as many for any N.
 void make_slivers(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
     Pcg32 random(seed);
-    const double half_width = std::min(0.02, 2.0 / triangles);
+    const double half_width = std::min(0.02, 3.0 / triangles);
     const Color straws[] = {srgb(0xE5C98B), srgb(0xD4AC62), srgb(0xC48F4A),
                             srgb(0xEFDFB4), srgb(0xA9743C), srgb(0x6E8B5B)};
     for (std::uint32_t i = 0; i < triangles; ++i) {
@@ -116,7 +116,7 @@ void make_boxes(Scene& scene, std::uint32_t boxes, std::uint64_t seed) {
         add(scene, box({x + west * cell, 0, z + north * cell}, {x + east * cell, height, z + south * cell}),
             walls[random.below(7)]);
     }
-    scene.camera = {.eye = {1.75f, 1.55f, 2.3f}, .target = {0.0f, 0.02f, 0.08f}, .field_of_view = 40};
+    scene.camera = {.eye = {1.75f, 1.55f, 2.3f}, .target = {0.0f, -0.04f, 0.08f}, .field_of_view = 38};
     scene.background = srgb(0xC9DEE8);
     add_light(scene, {-2.6, 3.2, 1.6}, {0, 0, 0}, Color{0.95f, 0.86f, 0.70f});
     add_light(scene, {3.0, 2.0, -1.0}, {0, 0, 0}, Color{0.20f, 0.24f, 0.30f});
@@ -146,11 +146,12 @@ void make_stadium(Scene& scene, std::uint32_t detail, std::uint64_t) {
     add(scene, box({-0.3, 0.01, -0.3}, {0.3, 0.9, 0.3}), srgb(0xEDE6DA));
     add(scene, transformed(teapot(detail), 1.4 * rotation({0, 1, 0}, -25), {0, 0.9, 0}), srgb(0xC8752F));
 
-    scene.camera = {.eye = {0.55f, 1.55f, 1.75f}, .target = {0.0f, 1.06f, 0.0f}, .field_of_view = 38};
+    scene.camera = {.eye = {0.62f, 1.22f, 1.9f}, .target = {0.02f, 1.10f, 0.0f}, .field_of_view = 40};
     scene.background = srgb(0xC4DDEB);
     add_light(scene, {-30, 22, 30}, {0, 1, 0}, Color{0.72f, 0.70f, 0.66f});
     add_light(scene, {30, 22, 20}, {0, 1, 0}, Color{0.34f, 0.35f, 0.38f});
-    add_light(scene, {0, 22, -25}, {0, 1, 0}, Color{0.26f, 0.26f, 0.28f});
+    add_light(scene, {0, 22, -25}, {0, 1, 0}, Color{0.20f, 0.20f, 0.22f});
+    add_eye_light(scene, Color{0.25f, 0.24f, 0.22f});
 }
 
 void make_icosphere(Scene& scene, std::uint32_t frequency, std::uint64_t) {
