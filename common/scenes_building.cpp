@@ -174,7 +174,7 @@ void make_building(Scene& scene, std::uint32_t storeys, std::uint64_t seed) {
     // The whole of a low house; of a high one four storeys in the middle.
     const double seen = storey * std::min(storeys, 4u);
     const Double3 middle{0.5 * length, 0.5 * height, 0.0};
-    const double far = 0.85 * length + 0.8 * seen;
+    const double far = 1.2 * length + 0.3 * seen;
     scene.camera = {
         .eye = Point3(middle + far * Double3{0.30, 0.14, 1.0}), .target = Point3(middle), .field_of_view = 36};
     scene.background = srgb(0xC4DDEB);
