@@ -35,6 +35,7 @@ struct Style {
     bool arrow = false;  ///< a head at the end of a line or polyline
 };
 
+/// Which end of a text stands at its point.
 enum class Anchor { start, middle, end };
 
 struct TextStyle {
