@@ -27,6 +27,7 @@ enum class Ink { ink, paper, quiet, faint, blue, orange, green, vermillion, sky,
 /// Lines of every drawing and chart, in drawing units.
 inline constexpr double line_weight = 2.0;
 
+/// Line and filling of a shape.
 struct Style {
     std::optional<Ink> stroke = Ink::ink;  ///< empty: no line
     std::optional<Ink> fill = {};          ///< empty: not filled
@@ -38,6 +39,7 @@ struct Style {
 /// Which end of a text stands at its point.
 enum class Anchor { start, middle, end };
 
+/// Size, colour and place of a text.
 struct TextStyle {
     Anchor anchor = Anchor::middle;
     Ink ink = Ink::ink;
