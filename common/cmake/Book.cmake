@@ -94,19 +94,23 @@ function(add_chapter name)
     endif()
 endfunction()
 
-# add_figure(ch01_naive_ray_tracing fig_01_03 drawing|rendering|chart "caption")
+# add_figure(ch01_naive_ray_tracing fig_01_03 drawing|rendering|chart "caption" [SLOW])
 # Names a figure that the chapter's program makes with --figure. Drawings and renderings have the same bytes
-# everywhere: a test makes them again and compares them with those in figures/. Charts show measured times.
+# everywhere: a test makes them again and compares them with those in figures/. Charts show measured times. What is SLOW
+# takes minutes: it is made by a full run or when it is asked for by its id, and is not tested.
 function(add_figure chapter id kind caption)
+    cmake_parse_arguments(ARG "SLOW" "" "" ${ARGN})
+    string(TOLOWER "${ARG_SLOW}" slow)
     if(NOT kind MATCHES "^(drawing|rendering|chart)$")
         message(FATAL_ERROR "add_figure ${id}: kind ${kind} is none of drawing, rendering, chart")
     endif()
     string(REPLACE "\\" "\\\\" caption "${caption}")
     string(REPLACE "\"" "\\\"" caption "${caption}")
     string(REPLACE ";" "\\;" caption "${caption}")
-    set_property(GLOBAL APPEND PROPERTY BOOK_FIGURES
-                 "{\"id\": \"${id}\", \"chapter\": \"${chapter}\", \"kind\": \"${kind}\", \"caption\": \"${caption}\"}")
-    if(kind STREQUAL "chart")
+    string(JOIN ", " entry "\"id\": \"${id}\"" "\"chapter\": \"${chapter}\"" "\"kind\": \"${kind}\""
+           "\"slow\": ${slow}" "\"caption\": \"${caption}\"")
+    set_property(GLOBAL APPEND PROPERTY BOOK_FIGURES "{${entry}}")
+    if(slow OR kind STREQUAL "chart")
         return()
     endif()
     book_short_name(${chapter} short)
