@@ -106,9 +106,9 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
 
 TEST_CASE("ray tracer and rasteriser differ only within the stated distance of an edge") {
 #ifdef BOOK_SANITIZED
-    constexpr int width = 40, height = 30;
+    constexpr int width = 24, height = 18;
 #else
-    constexpr int width = 160, height = 120;
+    constexpr int width = 80, height = 60;
 #endif
     std::uint64_t near_edge = 0;
     for (const SceneRecipe& recipe : scene_recipes()) {
