@@ -51,6 +51,7 @@ struct Structure {
 /// Every structure of the book, in its order; the first is naive tracing, which --check trusts.
 const std::vector<Structure>& structures();
 
+// [batch]
 /// Answers the query for each ray of the batch; the answers do not depend on the number of threads.
 template <class Counts, Accelerator A>
 Counts trace(const A& accelerator, const Batch& batch) {
@@ -75,6 +76,7 @@ Counts trace(const A& accelerator, const Batch& batch) {
     });
     return total;
 }
+// [batch]
 
 /// Builds an A with its default Config; `threads` matters to a Config that has a field of that name.
 template <Accelerator A>
