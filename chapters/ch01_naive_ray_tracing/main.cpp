@@ -139,6 +139,7 @@ int run(int argc, char** argv) {
     print_times(growth, shares);
     write_chart(options.out, growth_chart(growth));
     write_chart(options.out, share_chart(shares));
+    write_chart(options.out, accuracy_chart(options));
     print_heading("The sources' claims");
     for (const ClaimAnswer& answer : results.answers)
         fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
