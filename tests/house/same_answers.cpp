@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr int width = 40, height = 30;
+constexpr int width = 24, height = 18;
 
 /// FNV-1a over the bytes of values that have no padding between them.
 template <class T>
