@@ -25,8 +25,8 @@ const std::array<Sizes, 5>& sized_scenes() {
         {"soup", {1'000, 10'000, 100'000, 1'000'000}, {10, 100, 1'000}},
         {"icosphere", {7, 22, 71, 224}, {1, 2, 7}},
         {"tetra", {5, 7, 8, 10}, {2, 3, 5}},
-        {"mount", {5, 6, 8}, {1, 3, 5}},
-        {"boxes", {80, 800, 8'000}, {1, 8, 80}},
+        {"slivers", {1'000, 10'000, 100'000}, {10, 100, 1'000}},
+        {"boxes", {80, 800, 8'000, 80'000}, {1, 8, 80}},
     }};
     return scenes;
 }
@@ -129,7 +129,7 @@ std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigne
 
 // [growth]
 std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
-    constexpr int naive_width = 8, naive_height = 6, width = 640, height = 480;
+    constexpr int naive_width = 8, naive_height = 6, width = 160, height = 120;
     const std::vector<Measured> scenes = effort == Effort::small   ? series(2, 0)
                                          : effort == Effort::quick ? series(0, 3)
                                                                    : series(0, 4);
@@ -138,14 +138,21 @@ std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
     for (const Measured& measured : scenes) {
         const Scene scene = make_scene(measured.spec, seed);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
+        const auto triangles = static_cast<double>(scene.mesh.faces.size());
+        const int repeats = std::max(1, static_cast<int>(20'000 / triangles));  // a run takes some milliseconds
         const std::array<std::function<void()>, 2> candidates{
-            [&] { keep(render<NoCounts>(scene, naive, {.width = naive_width, .height = naive_height}).image); },
-            [&] { keep(render_rasterised(scene, width, height)); }};
+            [&] {
+                for (int i = 0; i < repeats; ++i)
+                    keep(render<NoCounts>(scene, naive, {.width = naive_width, .height = naive_height}).image);
+            },
+            [&] {
+                for (int i = 0; i < repeats; ++i) keep(rasterise(scene, width, height).pixels);
+            }};
         const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
         growth.push_back({.scene = measured.name,
-                          .triangles = static_cast<double>(scene.mesh.faces.size()),
-                          .naive_us = 1000.0 * ms[0] / (naive_width * naive_height),
-                          .rasteriser_us = 1000.0 * ms[1] / (width * height)});
+                          .triangles = triangles,
+                          .naive_us = 1000.0 * ms[0] / (repeats * naive_width * naive_height),
+                          .rasteriser_us = 1000.0 * ms[1] / (repeats * width * height)});
         progress.step();
     }
     return growth;
@@ -164,14 +171,21 @@ std::vector<SharePoint> measure_shares(Effort effort, std::uint64_t seed) {
         const Scene scene = make_scene(measured.spec, seed);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const RecordedRays rays = record_rays(scene, naive, width, height);
+        const auto triangles = static_cast<double>(scene.mesh.faces.size());
+        const int repeats = std::max(1, static_cast<int>(1'000 / triangles));
         const std::array<std::function<void()>, 2> candidates{
-            [&] { keep(render<NoCounts>(scene, naive, {.width = width, .height = height}).image); },
             [&] {
-                for (const Ray& ray : rays.camera) keep(closest_hit(naive, ray));
-                for (const Ray& ray : rays.shadow) keep(any_hit(naive, ray));
+                for (int i = 0; i < repeats; ++i)
+                    keep(render<NoCounts>(scene, naive, {.width = width, .height = height}).image);
+            },
+            [&] {
+                for (int i = 0; i < repeats; ++i) {
+                    for (const Ray& ray : rays.camera) keep(closest_hit(naive, ray));
+                    for (const Ray& ray : rays.shadow) keep(any_hit(naive, ray));
+                }
             }};
         const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
-        shares.push_back({measured.name, static_cast<double>(scene.mesh.faces.size()), ms[0], ms[1]});
+        shares.push_back({measured.name, triangles, ms[0] / repeats, ms[1] / repeats});
         progress.step();
     }
     return shares;
