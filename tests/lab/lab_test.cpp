@@ -80,7 +80,11 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
     const std::string files = fmt::format("--mesh {} --rays {} --hits {} --repeat 1", (bench / "soup.ply").string(),
                                           (bench / "rays").string(), (bench / "hits").string());
     const Naive<> naive = Naive<>::build(mesh.triangles());
+    const auto in_float = Naive<BasicMollerTrumbore<float>>::build(mesh.triangles());
 
+    REQUIRE(run(lab + "--structure naive --triangle-test moller-trumbore-float " + files).code == 0);
+    const std::vector<HitRecord> float_hits = read_hits(bench / "hits");
+    REQUIRE(float_hits.size() == rays.size());
     REQUIRE(run(lab + "--structure naive --query closest " + files).code == 0);
     const std::vector<HitRecord> closest = read_hits(bench / "hits");
     REQUIRE(run(lab + "--structure naive --query any " + files).code == 0);
@@ -94,8 +98,10 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
         const HitRecord expected =
             hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle} : HitRecord{infinity, 0.0f, 0.0f, 0xFFFFFFFF};
         CHECK(closest[i] == expected);
+        CHECK(float_hits[i] == HitRecord::closest(closest_hit(in_float, rays[i])));
         CHECK(any[i] == (hit ? HitRecord{0.0f, 0.0f, 0.0f, 0xFFFFFFFE} : expected));
     }
+    CHECK(float_hits != closest);
     CHECK(hits > 200);  // the rays are worth asking
     CHECK(hits < 1800);
 }
