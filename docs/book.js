@@ -42,7 +42,8 @@ function score(entry, words) {
 function excerpt(entry, words) {
   const at = Math.max(0, entry.plainText.indexOf(words.find((word) => entry.plainText.includes(word)) ?? "") - 40);
   const start = at && entry.text.indexOf(" ", at) + 1;
-  return (start ? "… " : "") + entry.text.slice(start, start + 130) + (entry.text.length > start + 130 ? " …" : "");
+  const end = entry.text.length > start + 130 ? entry.text.lastIndexOf(" ", start + 130) : entry.text.length;
+  return (start ? "… " : "") + entry.text.slice(start, end) + (end < entry.text.length ? " …" : "");
 }
 
 function search() {

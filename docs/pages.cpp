@@ -158,12 +158,11 @@ std::string exercises_page(const std::vector<Chapter>& chapters, const std::vect
         "/*! \\page exercises Exercises\n\\tableofcontents{HTML:2}\n"
         "Each exercise is one small header of the book with something wrong or missing. It compiles as it stands. "
         "Change it until its check agrees:\n\n"
-        "| command | what it does |\n|---|---|\n"
-        "| `./book exercise` | lists all exercises and which of them are solved |\n"
-        "| `./book exercise check 1.1` | compiles and checks yours; a failed check says what it expected |\n"
-        "| `./book exercise hint 1.1` | the first hint, then the second, then the third |\n"
-        "| `./book exercise solution 1.1` | shows a solution |\n"
-        "| `./book exercise reset 1.1` | puts the untouched file back |\n\n"
+        "- `./book exercise` lists all exercises, and which of them are solved;\n"
+        "- `./book exercise check 1.1` compiles and checks yours; a failed check says what it expected;\n"
+        "- `./book exercise hint 1.1` gives the first hint, then the second, then the third;\n"
+        "- `./book exercise solution 1.1` shows a solution;\n"
+        "- `./book exercise reset 1.1` puts the untouched file back.\n\n"
         "Checks count and compare; none of them measures time.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(exercises, chapter.folder, &Exercise::chapter) == 0) continue;

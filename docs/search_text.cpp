@@ -23,10 +23,11 @@ std::string_view between(std::string_view text, std::string_view open, std::stri
 
 /// The text that a reader sees: no tags, no drawings, entities as characters, single spaces.
 std::string visible_text(std::string_view markup) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> hidden{
-        {{"<svg", "</svg>"}, {"<span class=\"permalink\">", "</span>"}, {"<div class=\"toc\">", "</div>"}, {"<!--", "-->"}}};
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> entities{
-        {{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&#160;", " "}, {"&nbsp;", " "},
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> hidden{
+        {{"<svg", "</svg>"}, {"<span class=\"permalink\">", "</span>"}, {"<!--", "-->"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> entities{
+        {{"\\(", ""}, {"\\)", ""}, {"\\[", ""}, {"\\]", ""},  // a formula's ends
+         {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&#160;", " "}, {"&nbsp;", " "},
          {"&ndash;", "–"}}};
     std::string text;
     const auto space = [&] {
@@ -71,6 +72,7 @@ std::string visible_text(std::string_view markup) {
 std::vector<SearchEntry> search_entries(const std::string& page, const std::string& file_name) {
     const std::string title = visible_text(between(page, "<div class=\"title\">", "</div></div>"));
     std::string_view rest = between(page, "<div class=\"contents\">", "<!-- contents -->");
+    if (const std::size_t toc = rest.find("<div class=\"toc\">"); toc != rest.npos) rest = rest.substr(rest.find("</div>", toc));
     static const std::regex heading(R"(<h[1-4][^>]*>)"), anchor(R"re(( id="|href="#)([^"]+)")re");
     std::vector<SearchEntry> entries{{.page = title, .title = title, .url = file_name, .text = {}}};
     for (;;) {
