@@ -34,9 +34,9 @@ constexpr double text_size = 17, line_height = 21, text_gap = 12;
 constexpr double character_width = 0.6 * text_size;
 
 constexpr std::array series_inks{Ink::blue, Ink::vermillion, Ink::green, Ink::ink, Ink::purple, Ink::orange};
-/// The last two are too pale for text.
+/// Orange is too pale for text.
 Ink text_ink(Ink series) {
-    return series == Ink::purple || series == Ink::orange ? Ink::ink : series;
+    return series == Ink::orange ? Ink::ink : series;
 }
 /// gnuplot's filled circle, square, triangle, diamond, pentagon, inverted triangle: colours are not the only
 /// difference.
