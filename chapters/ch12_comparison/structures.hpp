@@ -18,6 +18,7 @@
 
 namespace space {
 
+/// The two questions of the concept Accelerator.
 enum class Query { closest, any };
 
 /// Rays to trace and where the answers go: hits[i] is that of rays[i].
@@ -43,6 +44,7 @@ struct StructureVariant {
     BuiltStructure (*build)(std::span<const Triangle> triangles, unsigned threads);
 };
 
+/// An entry of the lab: a structure of the book, in the variants that can be asked for.
 struct Structure {
     std::string_view name, about;
     std::vector<StructureVariant> variants;  ///< the first is the default
