@@ -97,6 +97,12 @@ Effort effort_of(const Options& options) {
     return options.small ? Effort::small : options.quick ? Effort::quick : Effort::full;
 }
 
+Scene in_reverse(Scene scene) {
+    std::reverse(scene.mesh.faces.begin(), scene.mesh.faces.end());
+    std::reverse(scene.colors.begin(), scene.colors.end());
+    return scene;
+}
+
 std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigned threads) {
     constexpr std::array names{"room", "sphereflake", "soup", "icosphere", "lattice"};
     const int width = effort == Effort::small ? 24 : 40, height = effort == Effort::small ? 18 : 30;
@@ -108,9 +114,7 @@ std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigne
         const Naive<> naive = Naive<>::build(triangles);
         const RenderSettings settings{.width = width, .height = height, .threads = threads};
 
-        Scene reversed = scene;
-        std::reverse(reversed.mesh.faces.begin(), reversed.mesh.faces.end());
-        std::reverse(reversed.colors.begin(), reversed.colors.end());
+        const Scene reversed = in_reverse(scene);
         all.push_back(
             {.scene = name,
              .triangles = triangles.size(),
@@ -325,6 +329,44 @@ std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, c
          "every "
          "scene, refuted if on none"},
     };
+}
+
+void print_counts(const std::vector<SceneCounts>& all) {
+    print_heading("Tests per pixel, and hits that Algorithm 1 as printed erases");
+    Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse", "shadow rays",
+                 "occluded", "tests", "per pixel"});
+    for (const SceneCounts& s : all)
+        tests.row({s.scene, with_commas(s.triangles), with_commas(s.lights), with_commas(s.pixels),
+                   with_commas(s.rendering.hits), with_commas(s.hits_as_printed), with_commas(s.hits_in_reverse),
+                   with_commas(s.rendering.shadow_rays), with_commas(s.rendering.occluded),
+                   with_commas(s.rendering.traversal.triangles_tested),
+                   with_commas(s.rendering.traversal.triangles_tested / s.pixels)});
+    tests.print();
+
+    print_heading("Ray tracer and rasteriser: pixels in which they see different triangles");
+    Table coverage({"scene", "pixels", "covered", "differ", "near an edge", "same depth", "unexplained"});
+    for (const SceneCounts& s : all)
+        coverage.row({s.scene, with_commas(s.coverage.pixels), with_commas(s.coverage.covered),
+                      with_commas(s.coverage.disagree), with_commas(s.coverage.near_edge),
+                      with_commas(s.coverage.same_depth), with_commas(s.coverage.unexplained)});
+    coverage.print();
+}
+
+void print_times(const std::vector<GrowthPoint>& growth, const std::vector<SharePoint>& shares) {
+    print_heading("Time per pixel against triangles (one thread, medians of interleaved runs)");
+    Table times({"scene", "triangles", "naive, µs", "rasteriser, µs", "ratio"});
+    for (const GrowthPoint& point : growth)
+        times.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.1f}", point.naive_us),
+                   fmt::format("{:.4f}", point.rasteriser_us),
+                   fmt::format("{:.0f}", point.naive_us / point.rasteriser_us)});
+    times.print();
+
+    print_heading("Share of the time spent in intersection tests");
+    Table share({"scene", "triangles", "rendering, ms", "its tests alone, ms", "share"});
+    for (const SharePoint& point : shares)
+        share.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.2f}", point.rendering_ms),
+                   fmt::format("{:.2f}", point.intersections_ms), fmt::format("{:.1f} %", 100 * point.share())});
+    share.print();
 }
 
 }  // namespace space

@@ -37,6 +37,8 @@ struct SceneCounts {
     Coverage coverage;
     Winding winding;
 };
+/// The scene with its triangles listed from the last to the first.
+Scene in_reverse(Scene scene);
 /// For five scenes. --small takes their small sizes.
 std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigned threads);
 
@@ -93,5 +95,9 @@ Slopes slopes(const std::vector<GrowthPoint>& growth, const std::string& scene);
 /// The answers to H1, H2, H3, H14 and P1.
 std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, const std::vector<GrowthPoint>& growth,
                                        const std::vector<SharePoint>& shares);
+
+/// Tables on the terminal.
+void print_counts(const std::vector<SceneCounts>& all);
+void print_times(const std::vector<GrowthPoint>& growth, const std::vector<SharePoint>& shares);
 
 }  // namespace space
