@@ -181,6 +181,10 @@ void check_off(Source& source) {
                            fmt::format("{} files are not read, only OFF with three coordinates", quote(whole_kind)));
         source.fail("not an OFF file: it does not begin with OFF");
     }
+    // Normals, colours and texture coordinates are read over at the ends of the lines; told of colours, the reader
+    // would read past the end of a line that has none.
+    std::fill_n(source.content.begin() + (whole_kind.data() - source.content.data()), kind.data() - whole_kind.data(),
+                ' ');
     std::int64_t counts[3];
     constexpr const char* names[3] = {"vertices", "faces", "edges"};
     constexpr std::int64_t fewest_bytes[3] = {6, 6, 1};  // "0 0 0\n", "3 0 0 0": bytes that one takes at least

@@ -95,6 +95,16 @@ TEST_CASE("STL gives the triangles in their order, equal corners as one vertex",
     CHECK(load_mesh(folder.write("text.stl", text)).triangles() == triangles);
 }
 
+TEST_CASE("OFF with normals, colours or texture coordinates, also where a line lacks them", "[mesh]") {
+    const test::Folder folder;
+    for (const char* kind : {"OFF", "COFF", "NOFF", "STOFF", "CNOFF", "STCNOFF"}) {
+        const std::string off =
+            std::string("# comment\n") + kind +
+            " # comment\n3 2 0\n\n0 0 0 1 0 0 1\n1 0 0\n0 1 0 255 0 0 # red\n3 0 1 2 0.5 0.5 0.5\n3 2 1 0\n";
+        CHECK(load_mesh(folder.write("mesh.off", off)).faces == Faces{{0, 1, 2}, {2, 1, 0}});
+    }
+}
+
 TEST_CASE("polygons become triangles where they stand", "[mesh]") {
     const test::Folder folder;
     const std::string vertices = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\n";

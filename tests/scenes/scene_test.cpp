@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <functional>
 #include <map>
 
@@ -15,11 +16,11 @@
 namespace space {
 namespace {
 
-/// All recipes but the one that needs a file of another package.
+/// All recipes but those that need a file which may not be there.
 std::vector<SceneRecipe> own_recipes() {
     std::vector<SceneRecipe> recipes;
     for (const SceneRecipe& recipe : scene_recipes())
-        if (recipe.default_size != 0) recipes.push_back(recipe);
+        if (!recipe.from_file) recipes.push_back(recipe);
     return recipes;
 }
 
@@ -242,6 +243,30 @@ TEST_CASE("absurd sizes are a usage error that names the range", "[scenes]") {
     for (const SceneRecipe& recipe : own_recipes())
         CHECK(complaint_about(spec(recipe, std::size_t{recipe.max_size} + 1), ExitCode::usage).find("from 1 to") !=
               std::string::npos);
+}
+
+TEST_CASE("a scene whose file is not there says how to get it", "[scenes]") {
+    const test::Folder empty;
+    const char* const before = std::getenv("BOOK_SCENES");
+    const std::string kept = before ? before : "";
+    ::setenv("BOOK_SCENES", empty.path().c_str(), 1);
+    const std::string told = complaint_about("forest", ExitCode::bad_input);
+    before ? ::setenv("BOOK_SCENES", kept.c_str(), 1) : ::unsetenv("BOOK_SCENES");
+    CHECK(told == (empty.path() / "forest.ply").string() +
+                      ": not there; ./book scenes fetches it (BOOK_SCENES names its folder)");
+}
+
+TEST_CASE("the optional scenes are seen by their cameras, where they are", "[scenes]") {
+    for (const SceneRecipe& recipe : scene_recipes()) {
+        if (!recipe.from_file) continue;
+        try {
+            const Scene scene = make_scene(recipe.name);
+            CHECK(test::is_sound(scene.mesh));
+            CHECK_FALSE(scene.lights.empty());
+        } catch (const Error& error) {
+            WARN("skipped: " << error.what());
+        }
+    }
 }
 
 TEST_CASE("an unknown name is a usage error that lists the names; a missing file an input error", "[scenes]") {
