@@ -12,7 +12,12 @@ window.MathJax = {
   messageStyle: "none",
   tex2jax: { inlineMath: [["\\(", "\\)"]], displayMath: [["\\[", "\\]"]] },
   SVG: { font: "TeX", scale: 92, linebreaks: { automatic: true, width: "container" } },
-  AuthorInit: () => MathJax.Hub.Register.StartupHook("End", () => document.documentElement.classList.add("formulas-shown")),
+  TeX: { noErrors: { disabled: true }, noUndefined: { disabled: true } },
+  AuthorInit() {
+    for (const fault of ["TeX Jax - parse error", "TeX Jax - undefined macro", "Math Processing Error"])
+      MathJax.Hub.Register.MessageHook(fault, (message) => console.error("formula: " + message.slice(1, 3).join(": ")));
+    MathJax.Hub.Register.StartupHook("End", () => document.documentElement.classList.add("formulas-shown"));
+  },
 };
 
 function load(script) {
