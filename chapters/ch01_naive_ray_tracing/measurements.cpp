@@ -52,6 +52,11 @@ int rounds(Effort effort) {
     return effort == Effort::full ? 5 : 3;
 }
 
+/// How often one run repeats its work, so that it takes some milliseconds with few triangles too.
+int repeats_for(Effort effort, int work, double triangles) {
+    return effort == Effort::small ? 1 : std::max(1, static_cast<int>(work / triangles));
+}
+
 Winding check_winding(std::span<const Triangle> triangles) {
     Winding winding;
     for (const Triangle& t : triangles) {
@@ -143,7 +148,7 @@ std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
         const Scene scene = make_scene(measured.spec, seed);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const auto triangles = static_cast<double>(scene.mesh.faces.size());
-        const int repeats = std::max(1, static_cast<int>(20'000 / triangles));  // a run takes some milliseconds
+        const int repeats = repeats_for(effort, 20'000, triangles);
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i)
@@ -176,7 +181,7 @@ std::vector<SharePoint> measure_shares(Effort effort, std::uint64_t seed) {
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const RecordedRays rays = record_rays(scene, naive, width, height);
         const auto triangles = static_cast<double>(scene.mesh.faces.size());
-        const int repeats = std::max(1, static_cast<int>(1'000 / triangles));
+        const int repeats = repeats_for(effort, 1'000, triangles);
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i)
