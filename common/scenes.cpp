@@ -51,8 +51,8 @@ void make_dragon_871k(Scene& scene, std::uint32_t, std::uint64_t) {
 void make_conference(Scene& scene, std::uint32_t, std::uint64_t) {
     scene.mesh = load_fetched("conference.ply");
     scene.camera = {.eye = {7.0f, 2.4f, 4.2f}, .target = {-2.0f, 0.6f, -0.5f}, .field_of_view = 60};
-    for (const double x : {-5.0, 0.0, 5.0}) add_light(scene, {x, 2.3, 0.3}, {x, 0.7, 0.0}, Color{0.32f, 0.31f, 0.28f});
-    add_light(scene, {7.0, 2.3, 4.2}, {5.0, 0.7, 1.0}, Color{0.22f, 0.22f, 0.24f});
+    for (const double x : {-5.0, 0.0, 5.0}) add_light(scene, {x, 2.3, 0.3}, {x, 0.7, 0.0}, Color{0.50f, 0.48f, 0.44f});
+    add_light(scene, {7.0, 2.3, 4.2}, {3.0, 0.7, 0.5}, Color{0.30f, 0.30f, 0.33f});
 }
 void make_forest(Scene& scene, std::uint32_t, std::uint64_t) {
     scene.mesh = load_fetched("forest.ply");
