@@ -147,8 +147,10 @@ TEST_CASE("the oracle sees a vertex and an edge where floats do not: no ray leak
     const std::vector<Triangle> quad{{a, b, c}, {a, c, d}};
     CHECK(ExactOracle::build(quad).hits({{3, 2, 5}, {-2.26249981f, -1.375f, -5.0250001f}}).size() == 1);
 
-    // A fan of six: every ray near the hub hits one of them, and all where it passes the hub exactly.
-    const Point3 hub(0.125f, 0.25f, 0.375f);
+    // A fan of six: every ray near the hub hits one of them, and all where it passes the hub exactly. The coordinates
+    // have so many bits that double would round, and so few that the directions to the hub are exact.
+    const auto exact = [](const Point3& p) { return glm::round(p * 0x1p20f) * 0x1p-20f; };
+    const Point3 hub = exact({0.1f, 0.2f, 0.3f});
     std::vector<Triangle> fan;
     const auto rim = [&](int k) {
         const double angle = k % 6 * 3.14159265358979323846 / 3;
@@ -158,7 +160,7 @@ TEST_CASE("the oracle sees a vertex and an edge where floats do not: no ray leak
     const ExactOracle oracle = ExactOracle::build(fan);
     Pcg32 random(17);
     for (int i = 0; i < 1000; ++i) {
-        const Point3 origin = glm::round(random_point(random, 1.0f, 8.0f) * 256.0f) / 256.0f;
+        const Point3 origin = exact(random_point(random, 1.0f, 7.0f));
         const auto at_hub = oracle.hits({origin, hub - origin});
         CHECK(at_hub.size() == 6);
         CHECK(at_hub.front().place == Place::vertex);
