@@ -47,7 +47,10 @@ void require_agreement(const std::string& mesh_option, std::span<const Triangle>
         std::size_t hit_count = 0;
         Progress progress(mesh_option + ": exact oracle", count);
         for (std::size_t i = 0; i < count; ++i) {
-            tally.add(compare(oracle, rays[i], answer(hits[i])));
+            const Comparison comparison = compare(oracle, rays[i], answer(hits[i]));
+            tally.add(comparison);
+            if (comparison.agreement == Agreement::tie)  // the contract: the smallest index
+                CHECK(hits[i].triangle == oracle.closest(rays[i]).front().triangle);
             hit_count += hits[i].is_hit();
             progress.step();
         }
