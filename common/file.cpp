@@ -49,10 +49,8 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
     std::error_code error;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
     if (error) throw output_error(fmt::format("cannot make directory {}: {}", file.parent_path().string(), error.message()));
-    if (std::filesystem::is_directory(file, error)) {
-        errno = EISDIR;
-        throw fail();
-    }
+    if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+        throw output_error(fmt::format("cannot write {}: not a regular file", file.string()));  // renaming would replace it
 
     const std::string temporary = fmt::format("{}.{}.part", file.string(), ::getpid());
     bool written = false;
