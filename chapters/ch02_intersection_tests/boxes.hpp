@@ -79,7 +79,8 @@ struct SlabReciprocal {
         return Interval{enter, leave};
     }
     // [slab_reciprocal]
-    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(PreparedBoxRay(ray), box); }
+    static PreparedBoxRay prepare(const Ray& ray) { return PreparedBoxRay(ray); }
+    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
 };
 
 /// As printed in Optim25: a ray that enters at t <= epsilon is said to start behind the box. It starts inside it.
@@ -109,7 +110,8 @@ struct SlabSafe {
         return Interval{enter, leave};
     }
     // [slab_safe]
-    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(PreparedBoxRay(ray), box); }
+    static PreparedBoxRay prepare(const Ray& ray) { return PreparedBoxRay(ray); }
+    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
 };
 
 /// Never misses a box that the ray meets in exact arithmetic, and reports the interval a little too large.
@@ -150,7 +152,8 @@ struct SlabConservative {
         return Interval{enter, leave};
     }
     // [slab_conservative]
-    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(Prepared(ray), box); }
+    static Prepared prepare(const Ray& ray) { return Prepared(ray); }
+    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
 
   private:
     static std::optional<Interval> in_double(const Prepared& ray, const Aabb& box) {

@@ -18,9 +18,9 @@ struct NoStages {
     static constexpr void decided(Stage) {}
 };
 
-/// Hit or miss as in exact arithmetic, on closed triangles and the closed interval [tmin, tmax]: a ray through a shared
-/// edge or vertex of a closed mesh hits every triangle there. A triangle without area, or seen exactly edge-on, is not hit.
-/// t is within 0.51 units in the last place of the exact one.
+/// Hit or miss as in exact arithmetic, on closed triangles: a ray through a shared edge or vertex of a closed mesh hits
+/// every triangle there. A triangle without area, or seen exactly edge-on, is not hit. t is the float nearest to the exact
+/// t, ties to even, and it is this float that must lie in [tmin, tmax], as in chapter 1.
 struct FilteredExact {
     template <class Stages = NoStages>
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle, Stages&& stages = {}) {
@@ -37,14 +37,12 @@ struct FilteredExact {
             const Double3 q = glm::cross(s, e1);
             const double v = side * glm::dot(q, d);
             if (v < -bound || u + v > size + bound) return decided(stages, Stage::filter);
-            const double t_volume = side * glm::dot(q, e2);
-            const double t_bound = volume_error * length * length * one_norm(s);
-            if (u > bound && v > bound && u + v < size - bound && size * t_precision > bound &&
-                std::abs(t_volume) * t_precision > t_bound) {
-                const double t = t_volume / size, slack = 4.0 * t_precision * std::abs(t);
-                if (t + slack < ray.tmin || t - slack > ray.tmax) return decided(stages, Stage::filter);
-                if (t - slack > ray.tmin && t + slack < ray.tmax)
-                    return decided(stages, Stage::filter, hit(t, u / size, v / size));
+            if (u > bound && v > bound && u + v < size - bound) {
+                const double inverse = 1.0 / size, t = side * glm::dot(q, e2) * inverse;
+                const double t_bound = volume_error * length * length * one_norm(s);
+                const double slack = 2.0 * (t_bound + std::abs(t) * bound) * inverse;
+                if (const auto nearest = common_float(t - slack, t + slack))
+                    return decided(stages, Stage::filter, hit(ray, *nearest, u * inverse, v * inverse));
             }
         }
         // [filter]
@@ -52,21 +50,27 @@ struct FilteredExact {
     }
 
   private:
-    /// Each volume is a sum of products of three differences (a float d counts as one without error). A computed term
-    /// carries at most seven roundings: three differences, two products, two sums; so the error of a volume is at most
-    /// gamma(7) times the sum of its terms' sizes, which |d| (|e1| + |e2|) (|e1| + |e2| + |s|) in 1-norms
-    /// bounds three times over (u, v and det). Adding u + v - det and the rounding of the bound itself
-    /// cost another five; sixteen covers them with room, gamma(n) = n u / (1 - n u), u = 2^-53. Nothing under- or
-    /// overflows: products of three floats stay within 2^-447 .. 2^390.
+    /// Each volume is a sum of products of three vectors' components. A computed term carries at most eight roundings:
+    /// three differences (two where d is a factor), two products, three sums; so the error of a volume is at most
+    /// gamma(8) times the sum of its terms' sizes, gamma(n) = n u / (1 - n u), u = 2^-53. In 1-norms these sizes add up
+    /// to at most |d| |e2| |e1| in det, |d| |e2| |s| in u, |d| |e1| |s| in v: all three together are below
+    /// |d| (|e1| + |e2|) (|e1| + |e2| + |s|). Eight more than cover the sums u + v and size + bound and the bound's own
+    /// roundings. Nothing under- or overflows: products of three floats and of the bound stay within 2^-500 .. 2^400.
     static constexpr double volume_error = 16.0 * 0x1p-53;
-    /// The filter gives t itself only where both volumes are known to one part in 2^30: t is then off by less than
-    /// 2^-29, a 1/64 of the last place of a float.
-    static constexpr double t_precision = 0x1p-30;
+    // A hit's `size` is more than three bounds, so the exact D is more than 2/3 of it. With T and D exact, T' and D'
+    // computed, |T / D - T' / D'| = |T' (D' - D) - (T' - T) D'| / (D D') <= 3/2 (|t| bound + t_bound) / size. The quarter
+    // of `slack` that is left is at least 8 u |t|, for the roundings of t and of slack.
 
     static double one_norm(const Double3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-    static Hit hit(double t, double u, double v) {
-        return {.t = static_cast<float>(t), .u = static_cast<float>(u), .v = static_cast<float>(v)};
+    /// The float nearest to every number from low to high, if they share it.
+    static std::optional<float> common_float(double low, double high) {
+        const auto nearest = static_cast<float>(low);
+        return nearest == static_cast<float>(high) ? std::optional(nearest) : std::nullopt;
+    }
+    static std::optional<Hit> hit(const Ray& ray, float t, double u, double v) {
+        if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
+        return Hit{.t = t, .u = static_cast<float>(u), .v = static_cast<float>(v)};
     }
     template <class Stages>
     static std::optional<Hit> decided(Stages& stages, Stage stage, std::optional<Hit> answer = {}) {
@@ -146,6 +150,8 @@ struct CommonScale {
 
 template <class Stages>
 std::optional<Hit> FilteredExact::by_integers(const Ray& ray, const Triangle& triangle, Stages& stages) {
+    if (!is_valid(ray) || !is_finite<3>(triangle.a) || !is_finite<3>(triangle.b) || !is_finite<3>(triangle.c))
+        return decided(stages, Stage::filter);  // what is not a number fails every comparison of the filter
     CommonScale place, way;
     place.cover(ray.origin);
     place.cover(triangle.a);
@@ -166,37 +172,41 @@ std::optional<Hit> FilteredExact::by_integers(const Ray& ray, const Triangle& tr
     const double det = to_double(volumes.det);
     const double t = std::ldexp(to_double(volumes.t) / det, place.lowest - way.lowest);
     const double slack = 0x1p-50 * std::abs(t);  // three roundings
-    if (t + slack < ray.tmin || t - slack > ray.tmax) return decided(stages, Stage::integers);
-    if (t - slack >= ray.tmin && t + slack <= ray.tmax)  // an exact t = 0 has no slack
-        return decided(stages, Stage::integers, hit(t, to_double(volumes.u) / det, to_double(volumes.v) / det));
+    if (const auto nearest = common_float(t - slack, t + slack))
+        return decided(stages, Stage::integers, hit(ray, *nearest, to_double(volumes.u) / det, to_double(volumes.v) / det));
     return by_expansions(ray, triangle, stages);
 }
 
-template <class Stages>
-std::optional<Hit> FilteredExact::by_expansions(const Ray& ray, const Triangle& triangle, Stages& stages) {
+/// The volumes in expansions: whatever the exponents.
+inline auto expansion_volumes(const Ray& ray, const Triangle& triangle) {
     const auto minus = [](const Point3& x, const Point3& y) {
         return Exact3<Expansion<2>>{difference(x.x, y.x), difference(x.y, y.y), difference(x.z, y.z)};
     };
-    const Exact3<double> d{ray.direction.x, ray.direction.y, ray.direction.z};
-    using Direction = Exact3<Expansion<1>>;
     const auto one = [](double x) {
         Expansion<1> result;
         result.push(x);
         return result;
     };
-    const ExactVolumes<Direction, Exact3<Expansion<2>>> volumes(
-        {one(d.x), one(d.y), one(d.z)}, minus(ray.origin, triangle.a), minus(triangle.b, triangle.a), minus(triangle.c, triangle.a));
+    const Vector3& d = ray.direction;
+    const auto e1 = minus(triangle.b, triangle.a), e2 = minus(triangle.c, triangle.a);
+    return ExactVolumes<Exact3<Expansion<1>>, Exact3<Expansion<2>>>({one(d.x), one(d.y), one(d.z)},
+                                                                    minus(ray.origin, triangle.a), e1, e2);
+}
+
+template <class Stages>
+std::optional<Hit> FilteredExact::by_expansions(const Ray& ray, const Triangle& triangle, Stages& stages) {
+    const auto volumes = expansion_volumes(ray, triangle);
     if (!volumes.line_hits()) return decided(stages, Stage::expansions);
 
-    const int side = sign(volumes.det);
-    // tmin <= t / det <= tmax, multiplied by det; an infinite end bounds nothing.
-    if (std::isfinite(ray.tmin) ? sign(volumes.t - volumes.det * double{ray.tmin}) * side < 0 : ray.tmin > 0)
-        return decided(stages, Stage::expansions);
-    if (std::isfinite(ray.tmax) ? sign(volumes.t - volumes.det * double{ray.tmax}) * side > 0 : ray.tmax < 0)
-        return decided(stages, Stage::expansions);
-    const double det = to_double(volumes.det);
-    return decided(stages, Stage::expansions,
-                   hit(to_double(volumes.t) / det, to_double(volumes.u) / det, to_double(volumes.v) / det));
+    const double det = to_double(volumes.det), t = to_double(volumes.t) / det, slack = 0x1p-50 * std::abs(t);
+    const auto low = static_cast<float>(t - slack), high = static_cast<float>(t + slack);
+    auto nearest = static_cast<float>(t);
+    if (low != high && std::isfinite(low) && std::isfinite(high)) {  // which side of their middle? t middle = ties to even
+        const double middle = 0.5 * (double{low} + double{high});
+        const int above = sign(volumes.t - volumes.det * middle) * sign(volumes.det);
+        nearest = above < 0 ? low : above > 0 ? high : static_cast<float>(middle);
+    }
+    return decided(stages, Stage::expansions, hit(ray, nearest, to_double(volumes.u) / det, to_double(volumes.v) / det));
 }
 
 }  // namespace space
