@@ -22,6 +22,7 @@ struct PointLight {
     Color intensity{1.0f};
 };
 
+/// All that a renderer needs to draw one picture.
 struct Scene {
     std::string name;
     TriangleMesh mesh;

@@ -1,11 +1,11 @@
 #include "common/svg.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <cmath>
 #include <stdexcept>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "common/image.hpp"
 
@@ -39,7 +39,7 @@ std::string style_block() {
     for (const PaletteEntry& color : palette) {
         light += fmt::format("--{}:{};", color.name, color.light);
         dark += fmt::format("--{}:{};", color.name, color.dark);
-        for (const std::string_view property : {"fill", "stroke"})
+        for (const std::string_view property : {"fill", "stroke", "color"})
             rules += fmt::format(".book-figure [{0}=\"{1}\"]{{{0}:var(--{2})}}\n", property, color.light, color.name);
     }
     // In a page the paper is the page's own (a variable of the theme's).
@@ -54,10 +54,10 @@ std::string style_block() {
         ".book-figure .italic{{font-family:\"Latin Modern Roman\",\"STIX Two Text\",\"Times New Roman\",Times,"
         "\"DejaVu Serif\",serif;font-style:italic}}\n"
         ".book-figure .halo{{paint-order:stroke;stroke-width:5;stroke-linejoin:round}}\n"
-        ".book-figure image{{image-rendering:pixelated}}\n"
+        ".book-figure .pixels{{image-rendering:pixelated}}\n"
         "{4}</style>\n",
-        light, dark, fmt::format(fmt::runtime(page), palette[1].light), fmt::format(fmt::runtime(page), palette[1].dark),
-        rules);
+        light, dark, fmt::format(fmt::runtime(page), palette[1].light),
+        fmt::format(fmt::runtime(page), palette[1].dark), rules);
 }
 
 std::string base64(std::string_view bytes) {
@@ -75,10 +75,12 @@ std::string base64(std::string_view bytes) {
 
 std::string paint(const Style& style) {
     std::string attributes = fmt::format(" fill=\"{}\"", style.fill ? svg_color(*style.fill) : "none");
-    if (style.fill && style.opacity != 1.0) attributes += fmt::format(" fill-opacity=\"{}\"", svg_number(style.opacity));
+    if (style.fill && style.opacity != 1.0)
+        attributes += fmt::format(" fill-opacity=\"{}\"", svg_number(style.opacity));
     if (style.stroke)
-        attributes += fmt::format(" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
-                                  svg_color(*style.stroke), svg_number(line_weight));
+        attributes +=
+            fmt::format(" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
+                        svg_color(*style.stroke), svg_number(line_weight));
     if (style.stroke && style.dashed) attributes += " stroke-dasharray=\"6 6\"";
     return attributes;
 }
@@ -125,17 +127,30 @@ std::string marked_up(std::string_view text, double size) {
 
 }  // namespace
 
-std::string_view svg_color(Ink ink) { return palette[static_cast<std::size_t>(ink)].light; }
+std::string_view svg_color(Ink ink) {
+    return palette[static_cast<std::size_t>(ink)].light;
+}
 
 std::string svg_escaped(std::string_view text) {
     std::string result;
     for (const char c : text) switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            case '\'': result += "&apos;"; break;
-            default: result += static_cast<unsigned char>(c) < 0x20 ? "\uFFFD" : std::string(1, c);
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            case '\'':
+                result += "&apos;";
+                break;
+            default:
+                result += static_cast<unsigned char>(c) < 0x20 ? "\uFFFD" : std::string(1, c);
         }
     return result;
 }
@@ -167,7 +182,9 @@ void Svg::element(std::string_view tag, const std::string& attributes, std::stri
     body_ += attributes + "/>\n";
 }
 
-void Svg::line(Point2 a, Point2 b, const Style& style, std::string_view id) { polyline({a, b}, style, id); }
+void Svg::line(Point2 a, Point2 b, const Style& style, std::string_view id) {
+    polyline({a, b}, style, id);
+}
 
 void Svg::polyline(const std::vector<Point2>& points, const Style& style, std::string_view id) {
     std::vector<Point2> shown = points;
@@ -203,19 +220,21 @@ void Svg::rect(Point2 corner, Vector2 size, const Style& style, std::string_view
 }
 
 void Svg::circle(Point2 centre, double radius, const Style& style, std::string_view id) {
-    element("circle",
-            fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\"", svg_number(centre.x), svg_number(centre.y), svg_number(radius)) +
-                paint(style),
-            id);
+    element(
+        "circle",
+        fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\"", svg_number(centre.x), svg_number(centre.y), svg_number(radius)) +
+            paint(style),
+        id);
 }
 
 void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::string_view id) {
     constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
     body_ += "<text";
     if (!id.empty()) body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
-    body_ += fmt::format(" x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"",
-                         svg_number(at.x), svg_number(at.y), svg_number(style.size),
-                         anchors[static_cast<std::size_t>(style.anchor)], svg_color(style.ink));
+    body_ +=
+        fmt::format(" x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"",
+                    svg_number(at.x), svg_number(at.y), svg_number(style.size),
+                    anchors[static_cast<std::size_t>(style.anchor)], svg_color(style.ink));
     if (style.bold) body_ += " font-weight=\"bold\"";
     if (style.halo) body_ += fmt::format(" class=\"halo\" stroke=\"{}\"", svg_color(Ink::paper));
     body_ += ">" + marked_up(text, style.size) + "</text>\n";
@@ -232,11 +251,12 @@ void Svg::end_group() {
 }
 
 void Svg::picture(Point2 corner, Vector2 size, const Image& image, std::string_view id) {
+    const bool pixels_show = size.x >= 2.0f * static_cast<float>(image.width());
     element("image",
-            fmt::format(" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
-                        "image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,{}\"",
-                        svg_number(corner.x), svg_number(corner.y), svg_number(size.x), svg_number(size.y),
-                        base64(png_bytes(image))),
+            fmt::format("{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+                        "href=\"data:image/png;base64,{}\"",
+                        pixels_show ? " class=\"pixels\" image-rendering=\"optimizeSpeed\"" : "", svg_number(corner.x),
+                        svg_number(corner.y), svg_number(size.x), svg_number(size.y), base64(png_bytes(image))),
             id);
 }
 

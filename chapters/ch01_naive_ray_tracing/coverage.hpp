@@ -36,6 +36,7 @@ inline double distance_to_outline(const glm::dvec2& point, const std::vector<glm
     return nearest;
 }
 
+/// Where the two renderers see the same triangle, in numbers.
 struct Coverage {
     std::uint64_t pixels = 0;
     std::uint64_t covered = 0;   ///< by any triangle, says the ray tracer
@@ -75,7 +76,7 @@ inline Coverage compare_coverage(const Scene& scene, const DepthBuffer& traced, 
             if (distance <= limit) {
                 ++coverage.near_edge;
                 coverage.farthest = std::max(coverage.farthest, distance);
-            } else if (std::abs(double{one.t} - other.t) <= same_depth_tolerance * one.t) {
+            } else if (std::abs(double{one.t} - other.t) <= same_depth_tolerance * std::min(one.t, other.t)) {
                 ++coverage.same_depth;
             } else {
                 ++coverage.unexplained;

@@ -35,6 +35,7 @@ struct MollerTrumbore {
         const Double3 q = glm::cross(s, ab);
         const double v = glm::dot(q, direction) / determinant;
         if (!(v >= 0.0 && u + v <= 1.0)) return std::nullopt;
+        if (glm::cross(ab, ac) == Double3(0.0)) return std::nullopt;  // no area, but a determinant of rounding errors
 
         const auto t = static_cast<float>(glm::dot(q, ac) / determinant);
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;  // also where t is not a number

@@ -16,9 +16,11 @@ struct NamedTest {
     std::string_view name, about;
 };
 
+// [triangle_tests]
 constexpr std::tuple triangle_tests{
     NamedTest<MollerTrumbore>{"moller-trumbore", "Möller & Trumbore 1997, in double"},
 };
+// [triangle_tests]
 
 /// A structure with every triangle test.
 template <template <TriangleTest> class A>
@@ -33,11 +35,13 @@ Structure offer(std::string_view name, std::string_view about) {
 
 }  // namespace
 
+// [structures]
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all{
         offer<Naive>("naive", "no structure: every ray is tested against every triangle (chapter 1)"),
     };
     return all;
 }
+// [structures]
 
 }  // namespace space

@@ -1,0 +1,59 @@
+#include "ex01_erased_hit.hpp"
+
+#include <array>
+
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+
+using namespace space;
+
+namespace {
+
+Triangle at_depth(float z, float x = 0.0f) {
+    return {{x - 1, -1, -z}, {x + 1, -1, -z}, {x, 1, -z}};
+}
+const Ray ahead{.origin = {0, 0, 0}, .direction = {0, 0, -1}};
+
+}  // namespace
+
+TEST_CASE("a later triangle that is missed erases nothing") {
+    const std::array triangles{at_depth(3), at_depth(2, 10), at_depth(5, -10)};
+    const auto seen = what_the_ray_sees(triangles, ahead);
+    REQUIRE(seen);
+    CHECK(seen->t == 3.0f);
+    CHECK(seen->triangle == 0);
+}
+
+TEST_CASE("the nearest hit wins, wherever it stands in the list") {
+    const std::array triangles{at_depth(4), at_depth(2), at_depth(3)};
+    const auto seen = what_the_ray_sees(triangles, ahead);
+    REQUIRE(seen);
+    CHECK(seen->t == 2.0f);
+    CHECK(seen->triangle == 1);
+}
+
+TEST_CASE("of two equal hits the smaller index wins") {
+    const std::array triangles{at_depth(4), at_depth(2), at_depth(2)};
+    const auto seen = what_the_ray_sees(triangles, ahead);
+    REQUIRE(seen);
+    CHECK(seen->triangle == 1);
+}
+
+TEST_CASE("a ray that meets nothing sees nothing") {
+    CHECK_FALSE(what_the_ray_sees({}, ahead));
+    const std::array triangles{at_depth(4, 10), at_depth(2, -10)};
+    CHECK_FALSE(what_the_ray_sees(triangles, ahead));
+}
+
+TEST_CASE("2,000 random rays see what the naive tracer sees") {
+    Pcg32 random(1);
+    const auto point = [&] { return Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 50; ++i) triangles.push_back({point(), point(), point()});
+    const Naive<> naive = Naive<>::build(triangles);
+    for (int i = 0; i < 2'000; ++i) {
+        const Ray ray{.origin = 2.0f * point(), .direction = point()};
+        CHECK(what_the_ray_sees(triangles, ray) == closest_hit(naive, ray));
+    }
+}

@@ -1,0 +1,150 @@
+#include "common/chart.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/svg.hpp"
+#include "tests/catch.hpp"
+
+using namespace space;
+namespace fs = std::filesystem;
+
+namespace {
+
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != text.npos;
+}
+
+/// A directory for one test.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("chart_test_" + std::to_string(::getpid()));
+    Folder() { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+};
+
+/// $PATH for as long as the test runs.
+struct Path {
+    std::string before = std::getenv("PATH");
+    explicit Path(const fs::path& path) { ::setenv("PATH", path.c_str(), 1); }
+    ~Path() { ::setenv("PATH", before.c_str(), 1); }
+};
+
+bool gnuplot_is_here() {
+    return std::system("command -v gnuplot > /dev/null 2>&1") == 0;
+}
+
+void make_program(const fs::path& file, const std::string& script) {
+    write_file(file, "#!/bin/sh\n" + script);
+    fs::permissions(file, fs::perms::owner_all);
+}
+
+Chart growth() {
+    return {.id = "fig_99_01",
+            .title = "Time against triangles",
+            .x_label = "triangles",
+            .y_label = "time, ms",
+            .log_x = true,
+            .log_y = true,
+            .series = {{.name = "naive", .x = {1000, 10000}, .y = {1.5, 15}, .note = "slope 1.00"},
+                       {.name = "other, faster", .x = {1000, 10000}, .y = {0.5, 0.75}}}};
+}
+
+}  // namespace
+
+TEST_CASE("the data file names the machine and the date, and holds every point") {
+    ::setenv("SOURCE_DATE_EPOCH", "0", 1);
+    const std::string csv = chart_csv(growth());
+    ::unsetenv("SOURCE_DATE_EPOCH");
+    CHECK(contains(csv, "# fig_99_01: Time against triangles\n# machine: "));
+    CHECK(contains(csv, "\n# date: 1970-01-01\nseries,triangles,\"time, ms\"\n"));
+    CHECK(
+        contains(csv, "\nnaive,1000,1.5\nnaive,10000,15\n\"other, faster\",1000,0.5\n\"other, faster\",10000,0.75\n"));
+}
+
+TEST_CASE("bars are told by category in the data file") {
+    const Chart chart{.id = "c",
+                      .title = "",
+                      .x_label = "",
+                      .y_label = "%",
+                      .kind = ChartKind::bars,
+                      .series = {{.name = "share", .x = {}, .y = {60, 99.5}}},
+                      .categories = {"1 K", "2 K"}};
+    CHECK(contains(chart_csv(chart), "\nseries,category,%\nshare,1 K,60\nshare,2 K,99.5\n"));
+}
+
+TEST_CASE("a chart has the drawings' palette, style and ids") {
+    if (!gnuplot_is_here()) {
+        WARN("skipped: gnuplot is not installed");
+        return;
+    }
+    const Folder folder;
+    write_chart(folder.path, growth());
+    const std::string svg = read_file(folder.path / "fig_99_01.svg");
+    CHECK(svg.starts_with(svg_opening("fig_99_01", "Time against triangles", 640, 420)));
+    CHECK(svg.ends_with("</svg>\n"));
+    for (const char* text : {">naive</text>", ">slope 1.00</text>", ">other, faster</text>", ">triangles</text>",
+                             ">time, ms</text>", ">1 K</text>", ">10 K</text>"})
+        CHECK(contains(svg, text));
+    CHECK(contains(svg, "stroke='" + std::string(svg_color(Ink::blue)) + "'"));
+    CHECK(contains(svg, "stroke='" + std::string(svg_color(Ink::vermillion)) + "'"));
+    for (const char* foreign : {"rgb(", "\"black\"", "\"white\"", "id='gp", "'#gp", "gnuplot", "<filter"})
+        CHECK_FALSE(contains(svg, foreign));
+}
+
+TEST_CASE("text in a chart is text: not a script, not markup") {
+    if (!gnuplot_is_here()) {
+        WARN("skipped: gnuplot is not installed");
+        return;
+    }
+    const Folder folder;
+    const fs::path trace = folder.path / "trace";
+    Chart chart = growth();
+    chart.x_label = "'; system('touch " + trace.string() + "') #";
+    chart.y_label = "`touch " + trace.string() + "` @GPVAL $HOME";
+    chart.series[0].name = "a\nsystem('touch " + trace.string() + "')";
+    chart.series[1].name = "<b> & {/=30 big} x_1 \\n";
+    write_chart(folder.path, chart);
+    CHECK_FALSE(fs::exists(trace));
+    const std::string svg = read_file(folder.path / "fig_99_01.svg");
+    CHECK(contains(svg, ">&lt;b> &amp; {/=30 big} x_1 \\n</text>"));
+    CHECK(contains(svg, "` @GPVAL $HOME</text>"));
+}
+
+TEST_CASE("points that an axis cannot show are left out; no point at all is an error") {
+    if (!gnuplot_is_here()) {
+        WARN("skipped: gnuplot is not installed");
+        return;
+    }
+    const Folder folder;
+    Chart chart = growth();
+    chart.series[0].y = {0.0, std::numeric_limits<double>::quiet_NaN()};
+    CHECK_NOTHROW(write_chart(folder.path, chart));
+    chart.series.pop_back();
+    CHECK_THROWS_WITH(write_chart(folder.path, chart), "fig_99_01.svg: there is no point to draw");
+}
+
+TEST_CASE("without gnuplot there is the data file alone") {
+    const Folder folder;
+    {
+        const Path nowhere(folder.path / "nothing");
+        CHECK_NOTHROW(write_chart(folder.path, growth()));
+    }
+    CHECK(fs::exists(folder.path / "fig_99_01.csv"));
+    CHECK_FALSE(fs::exists(folder.path / "fig_99_01.svg"));
+}
+
+TEST_CASE("a gnuplot that fails is an error with its reason, and leaves no picture") {
+    const Folder folder;
+    const Path path(folder.path);
+    make_program(folder.path / "gnuplot", "echo '\"chart.gp\" line 3: undefined moon' >&2; exit 1");
+    CHECK_THROWS_WITH(write_chart(folder.path, growth()),
+                      "fig_99_01.svg: gnuplot failed: \"chart.gp\" line 3: undefined moon");
+    make_program(folder.path / "gnuplot", "echo not a picture");
+    CHECK_THROWS_AS(write_chart(folder.path, growth()), Error);
+    CHECK_FALSE(fs::exists(folder.path / "fig_99_01.svg"));
+}

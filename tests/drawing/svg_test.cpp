@@ -1,0 +1,153 @@
+#include "common/svg.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "common/image.hpp"
+#include "tests/catch.hpp"
+
+using namespace space;
+
+namespace {
+
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != text.npos;
+}
+
+std::size_t count(const std::string& text, std::string_view part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+    return found;
+}
+
+std::string decoded(const std::string& base64) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    unsigned bits = 0, count = 0;
+    for (const char c : base64) {
+        if (c == '=') break;
+        bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+        if ((count += 6) >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255u);
+    }
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a number has at most two decimals and no negative zero") {
+    CHECK(svg_number(0.0) == "0");
+    CHECK(svg_number(-0.0) == "0");
+    CHECK(svg_number(-0.001) == "0");
+    CHECK(svg_number(100.0) == "100");
+    CHECK(svg_number(1.5) == "1.5");
+    CHECK(svg_number(-2.346) == "-2.35");
+    CHECK(svg_number(1e9) == "1000000000");
+    CHECK_THROWS_AS(svg_number(std::nan("")), std::invalid_argument);
+    CHECK_THROWS_AS(svg_number(std::numeric_limits<double>::infinity()), std::invalid_argument);
+}
+
+TEST_CASE("text cannot break out of its element") {
+    CHECK(svg_escaped("a < b & \"c\" > 'd'") == "a &lt; b &amp; &quot;c&quot; &gt; &apos;d&apos;");
+    CHECK(svg_escaped("bell\x07") == "bell\uFFFD");
+    CHECK(svg_escaped("säteenjäljitys") == "säteenjäljitys");
+
+    Svg svg("f", "<script>", 10, 10);
+    svg.text({0, 0}, "*<t>*_<", {}, "a\"b");
+    const std::string document = svg.document();
+    CHECK(contains(document, "&lt;script&gt;</title>"));
+    CHECK(contains(document, "<tspan class=\"italic\">&lt;t&gt;</tspan>"));
+    CHECK(contains(document, "id=\"f-a&quot;b\""));
+}
+
+TEST_CASE("markup: italics, subscripts, and back to the base line") {
+    Svg svg("f", "", 10, 10);
+    svg.text({0, 0}, "*t*_{min} to *t*_1", {.size = 20});
+    CHECK(contains(
+        svg.document(),
+        "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">min</tspan><tspan dy=\"-5\"> to </tspan>"
+        "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">1</tspan></text>"));
+}
+
+TEST_CASE("every id carries the figure's, so that many figures can stand in one page") {
+    Svg svg("fig_09_01", "title", 640, 400);
+    svg.begin_group("rays");
+    svg.line({0, 0}, {1, 1}, {.arrow = true}, "first");
+    svg.end_group();
+    svg.rect({0, 0}, {1, 1}, {}, "box");
+    svg.circle({0, 0}, 1, {}, "ball");
+    svg.polygon({{0, 0}, {1, 0}, {0, 1}}, {}, "triangle");
+    svg.text({0, 0}, "x", {}, "name");
+    svg.picture({0, 0}, {1, 1}, Image(1, 1), "pixels");
+    const std::string document = svg.document();
+    CHECK(count(document, " id=\"fig_09_01") == count(document, " id=\""));
+    for (const char* id : {"rays", "first", "box", "ball", "triangle", "name", "pixels"})
+        CHECK(contains(document, std::string("id=\"fig_09_01-") + id + '"'));
+}
+
+TEST_CASE("every colour of an element is one that the style block maps to a variable") {
+    for (int ink = 0; ink < 11; ++ink) {
+        Svg svg("f", "", 10, 10);
+        svg.rect({0, 0}, {1, 1}, {.stroke = static_cast<Ink>(ink), .fill = static_cast<Ink>(ink)});
+        const std::string document = svg.document();
+        const std::string color(svg_color(static_cast<Ink>(ink)));
+        CHECK(contains(document, "[stroke=\"" + color + "\"]{stroke:var(--"));
+        CHECK(contains(document, "[fill=\"" + color + "\"]{fill:var(--"));
+        CHECK(contains(document, "stroke=\"" + color + "\" stroke-width=\"2\""));
+    }
+}
+
+TEST_CASE("the page's light or dark class wins over the system's setting, and styles stay inside the figure") {
+    const std::string document = Svg("f", "", 10, 10).document();
+    const auto system = document.find("@media (prefers-color-scheme:dark){svg.book-figure{");
+    const auto light = document.find("html.light-mode svg.book-figure{");
+    const auto dark = document.find("html.dark-mode svg.book-figure{");
+    REQUIRE(system != document.npos);
+    CHECK(system < light);
+    CHECK(light < dark);
+    CHECK(dark != document.npos);
+    CHECK(contains(document, "class=\"book-figure\" role=\"img\""));
+    CHECK(count(document, "\ntext") == 0);
+}
+
+TEST_CASE("an arrow ends in a head whose tip is the line's end") {
+    Svg svg("f", "", 100, 100);
+    svg.line({0, 50}, {100, 50}, {.stroke = Ink::blue, .arrow = true});
+    CHECK(contains(svg.document(), "<polyline points=\"0,50 90.4,50\""));
+    CHECK(contains(svg.document(), "<polygon points=\"100,50 88,54.5 88,45.5\" fill=\"#0072b2\"/>"));
+
+    Svg point("f", "", 100, 100);
+    point.line({5, 5}, {5, 5}, {.arrow = true});  // no direction: no head, and no NaN
+    CHECK(count(point.document(), "<polygon") == 0);
+}
+
+TEST_CASE("a picture is the PNG file of the image, in base64") {
+    for (int width = 1; width <= 3; ++width) {  // lengths with different remainders
+        const Image image(width, 1);
+        Svg svg("f", "", 10, 10);
+        svg.picture({1, 2}, {3, 4}, image);
+        const std::string document = svg.document();
+        const std::string before = "href=\"data:image/png;base64,";
+        REQUIRE(contains(document, before));
+        const std::size_t from = document.find(before) + before.size();
+        CHECK(decoded(document.substr(from, document.find('"', from) - from)) == png_bytes(image));
+    }
+}
+
+TEST_CASE("the same calls give the same bytes") {
+    const auto draw = [] {
+        Svg svg("f", "title", 640, 400);
+        for (int i = 0; i < 100; ++i)
+            svg.circle({320.0f + 100.0f * std::cos(0.1f * static_cast<float>(i)), 0.333f * static_cast<float>(i)}, 3);
+        return svg.document();
+    };
+    CHECK(draw() == draw());
+}
+
+TEST_CASE("a group that is not closed, or not open, is a fault that shows") {
+    Svg open("f", "", 1, 1);
+    open.begin_group("g");
+    CHECK_THROWS_AS(open.document(), std::logic_error);
+    Svg closed("f", "", 1, 1);
+    CHECK_THROWS_AS(closed.end_group(), std::logic_error);
+}
