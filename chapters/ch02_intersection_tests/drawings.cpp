@@ -50,22 +50,23 @@ constexpr Point3 corner_a{-1.0625f, -1.125f, -0.125f}, corner_b{0.75f, -0.875f, 
     corner_d{-1.0625f, 0.8125f, -0.125f};
 constexpr Triangle lower{corner_a, corner_b, corner_c}, upper{corner_a, corner_c, corner_d};
 
+/// Meets the diagonal at t = 1.
+constexpr Ray aim{.origin = {3.0f, 2.0f, 5.0f}, .direction = {-2.26249981f, -1.375f, -5.0250001f}};
+
 struct SharedEdge {
     Image image{0, 0};
     int neither = 0;
 };
 
-/// Rays from one point in neighbouring directions, about one that meets the diagonal: which triangle says that it is hit?
+/// Rays in directions next to that of `aim`: which triangle says that it is hit?
 template <class Test>
 SharedEdge shared_edge(int side) {
-    constexpr Point3 origin{3.0f, 2.0f, 5.0f};
-    constexpr Vector3 direction{-2.26249981f, -1.375f, -5.0250001f};
     constexpr float step = 0x1p-22f;  // between neighbouring floats of direction.x; every other one of direction.y
     SharedEdge result{.image = Image(side, side)};
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const Vector3 offset(static_cast<float>(x - side / 2) * step, static_cast<float>(side / 2 - y) * step, 0.0f);
-            const Ray ray{.origin = origin, .direction = direction + offset};
+            const Ray ray{.origin = aim.origin, .direction = aim.direction + offset};
             const bool hits_lower = Test::intersect(ray, lower).has_value(), hits_upper = Test::intersect(ray, upper).has_value();
             result.neither += !hits_lower && !hits_upper;
             result.image.at(x, y) = pixel(hits_lower && hits_upper ? Ink::blue
@@ -86,9 +87,9 @@ void draw_shared_edge(const Options& options) {
     const Point2 a = view(corner_a), c = view(corner_c);
     const Vector2 along = glm::normalize(c - a), across(-along.y, along.x);
     const auto beside = [&](float share, float distance) { return a + share * (c - a) + distance * across; };
-    svg.line(beside(0.75f, 14), beside(0.4f, 14), {.stroke = Ink::blue, .arrow = true});
-    svg.line(beside(0.4f, -14), beside(0.75f, -14), {.stroke = Ink::vermillion, .arrow = true});
-    svg.circle(beside(0.22f, 0), 9, {.stroke = Ink::vermillion});
+    svg.line(beside(0.62f, 14), beside(0.3f, 14), {.stroke = Ink::blue, .arrow = true});
+    svg.line(beside(0.3f, -14), beside(0.62f, -14), {.stroke = Ink::vermillion, .arrow = true});
+    svg.circle(view(aim.at(1.0f)), 9, {.stroke = Ink::ink}, "glass");
     const std::array<std::pair<Point2, const char*>, 4> names{{{moved(a, -14, 14), "*a*"},
                                                                {moved(view(corner_b), 14, 14), "*b*"},
                                                                {moved(c, 14, 0), "*c*"},
@@ -97,8 +98,8 @@ void draw_shared_edge(const Options& options) {
     svg.text({318, 62}, "*a b c* asks: left of *c* → *a*?", {.anchor = Anchor::start, .ink = Ink::blue});
     svg.text({318, 92}, "*a c d* asks: left of *a* → *c*?", {.anchor = Anchor::start, .ink = Ink::vermillion});
     svg.text({318, 136}, "Exactly:", {.anchor = Anchor::start});
-    svg.text({318, 162}, "*E*_{*ca*} = −*E*_{*ac*},", {.anchor = Anchor::start, .size = 20});
-    svg.text({318, 192}, "one of them says yes.", {.anchor = Anchor::start});
+    svg.text({318, 162}, "*E*_{ca} = −*E*_{ac}:", {.anchor = Anchor::start, .size = 20});
+    svg.text({318, 192}, "one of the two says yes.", {.anchor = Anchor::start});
     svg.text({318, 218}, "Rounded: see below.", {.anchor = Anchor::start});
 
     constexpr int side = 40;
@@ -143,6 +144,9 @@ void draw_slabs(const Options& options) {
 
     svg.rect(view(box.min.x, 3.1), at(scale * (box.max.x - box.min.x), floor + 10), {.stroke = {}, .fill = Ink::sky, .opacity = 0.35}, "x-slab");
     svg.rect(view(0, box.max.y), at(640, scale * (box.max.y - box.min.y)), {.stroke = {}, .fill = Ink::orange, .opacity = 0.3}, "y-slab");
+    constexpr double axis = 372;  // of t: d.x is 1, so that each mark stands below its point
+    const std::array<std::pair<double, double>, 4> marks{{{x.near, axis}, {x.far, axis}, {y.near, axis + 30}, {y.far, axis + 30}}};
+    for (const auto& [t, down] : marks) svg.line(moved(on_ray(t), 0, 6), at(on_ray(t).x, down), {.stroke = Ink::faint});
     svg.rect(view(box.min.x, box.max.y), at(scale * (box.max.x - box.min.x), scale * (box.max.y - box.min.y)), {}, "box");
     svg.line(on_ray(0), on_ray(5.65), {.stroke = Ink::vermillion, .arrow = true});
     svg.circle(on_ray(0), 5, {.stroke = {}, .fill = Ink::vermillion});
@@ -150,14 +154,7 @@ void draw_slabs(const Options& options) {
     svg.text(moved(view(box.min.x, 3.1), 8, 22), "*x* slab", {.anchor = Anchor::start, .ink = Ink::blue});
     svg.text(moved(view(0, box.max.y), 8, 24), "*y* slab", {.anchor = Anchor::start});
 
-    // The axis of t: d.x is 1, so each mark stands below its point.
-    constexpr double axis = 372;
-    const auto mark = [&](double t, double top) {
-        svg.line(moved(on_ray(t), 0, 6), at(on_ray(t).x, top), {.stroke = Ink::faint});
-        svg.circle(on_ray(t), 5, {.stroke = Ink::ink, .fill = Ink::paper});
-    };
-    for (const double t : {x.near, x.far}) mark(t, axis);
-    for (const double t : {y.near, y.far}) mark(t, axis + 30);
+    for (const auto& [t, down] : marks) svg.circle(on_ray(t), 5, {.fill = Ink::paper});
     const auto interval = [&](double y_of, double near, double far, Ink ink, const std::string& label) {
         bar(svg, on_ray(near).x, on_ray(far).x, y_of, 16, ink);
         svg.text(at(on_ray(near).x - 10, y_of + 15), label, {.anchor = Anchor::end});
@@ -196,6 +193,22 @@ void draw_slabs(const Options& options) {
 // 2.3 The filter
 
 namespace {
+
+/// "10^-3" as "10⁻³".
+std::string with_powers(const std::string& text) {
+    constexpr const char* raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    const std::size_t caret = text.find('^');
+    std::string result = text.substr(0, caret);
+    for (std::size_t i = std::min(caret, text.size() - 1) + 1; i < text.size(); ++i)
+        result += text[i] == '-' ? "⁻" : raised[text[i] - '0'];
+    return result;
+}
+
+/// A share of all, never rounded to all.
+std::string percent(int part, int all) {
+    if (part < all && 10'000 * (all - part) < all) return "> 99.99 %";
+    return fmt::format("{:.{}f} %", 100.0 * part / all, part == all ? 0 : 2);
+}
 
 struct StageCounts {
     std::array<int, 3> count{};
@@ -252,14 +265,14 @@ void draw_filter(const Options& options) {
             const auto [ray, triangle] = make_pair(input, random);
             FilteredExact::intersect(ray, triangle, stages);
         }
-        svg.text(at(left - 12, top + 18), input.name, {.anchor = Anchor::end, .size = 17});
+        svg.text(at(left - 12, top + 18), with_powers(input.name), {.anchor = Anchor::end, .size = 17});
         double x = left;
         for (std::size_t stage = 0; stage < 3; ++stage) {
             const double next = x + (right - left) * stages.count[stage] / pairs;
             if (stages.count[stage]) bar(svg, x, std::max(next, x + 1), top, 24, inks[stage], 0.85);
             x = next;
         }
-        svg.text(at(right + 12, top + 18), fmt::format("{:.2f} %", 100.0 * stages.count[0] / pairs), {.anchor = Anchor::start, .size = 17});
+        svg.text(at(right + 12, top + 18), percent(stages.count[0], pairs), {.anchor = Anchor::start, .size = 17});
         top += row;
     }
     const std::array<std::tuple<float, Ink, const char*>, 3> legend{
@@ -333,14 +346,15 @@ void draw_sphere(const Options& options) {
     svg.text(moved(0.5f * flat(ray.origin + sphere.center), -20, 28), "*f*", {.ink = Ink::blue, .size = 20});
     svg.text(moved(0.5f * flat(sphere.center + nearest), 14, 8), "*n*", {.ink = Ink::green, .size = 20});
     svg.text(moved(0.5f * flat(sphere.center + enter), -10, 20), "*r*", {.ink = Ink::ink, .size = 20});
-    svg.text({126, 262}, "(*t*_1 − *t*_0)² / 4 = *r*² − |*n*|²", {.size = 20});
+    svg.text({130, 246}, "half a chord, squared:", {});
+    svg.text({130, 276}, "*r*² − |*n*|²", {.size = 20});
 
     constexpr int side = 96;
     constexpr float size = 192;
     const auto panel = [&](float left, const char* name, const SpherePicture& picture) {
         svg.picture({left, 310}, {size, size}, picture.image, name);
         svg.text({left + size / 2, 528}, name, {.bold = true});
-        svg.text({left + size / 2, 554}, picture.wrong ? fmt::format("{} wrong", picture.wrong) : "none wrong",
+        svg.text({left + size / 2, 554}, picture.wrong ? with_commas(static_cast<std::uint64_t>(picture.wrong)) + " wrong" : "none wrong",
                  {.ink = picture.wrong ? Ink::vermillion : Ink::ink});
     };
     panel(8, "schoolbook", sphere_picture<SphereSchoolbook>(side, 3000.0));
@@ -367,7 +381,7 @@ void draw_newton_root(const Options& options) {
         svg.text(at(left - 12, y_of(i) + 6), fmt::format("{}", i), {.anchor = Anchor::end});
         svg.text(at(x_of(std::ldexp(1.0, i)), y_of(0) + 26), fmt::format("{}", 1 << i), {});
     }
-    svg.text(at(0.5 * (left + right), y_of(0) + 26), "*a*", {.size = 20});
+    svg.text(at(x_of(2.8), y_of(0) + 26), "*a*", {.size = 20});
     std::vector<Point2> bits;
     for (int i = 0; i <= 192; ++i) {
         const float a = static_cast<float>(std::exp2(i / 96.0));
@@ -391,8 +405,8 @@ void draw_newton_root(const Options& options) {
         svg.line(at(x_of(std::ldexp(1.0, i)), top), at(x_of(std::ldexp(1.0, i)), top + 7 * decade), {.stroke = Ink::faint});
         svg.text(at(x_of(std::ldexp(1.0, i)), top + 7 * decade + 28), fmt::format("{}", 1 << i), {});
     }
-    svg.text(at(0.5 * (left + right), top + 7 * decade + 28), "*a*", {.size = 20});
-    const auto rounds = [&](float (*root)(float), Ink ink, const char* label) {
+    svg.text(at(x_of(2.8), top + 7 * decade + 28), "*a*", {.size = 20});
+    const auto rounds = [&](float (*root)(float), Ink ink, const char* label, double lowered = 6) {
         constexpr int windows = 240, samples = 32;  // the worst of each window: rounding is noise, and noise is no line
         std::vector<Point2> line;
         double last = 0.0;
@@ -406,12 +420,12 @@ void draw_newton_root(const Options& options) {
             last = worst;
         }
         svg.polyline(line, {.stroke = ink});
-        svg.text(at(right + 10, y_of_error(last) + 6), label, {.anchor = Anchor::start, .ink = ink == Ink::orange ? Ink::ink : ink, .size = 17});
+        svg.text(at(right + 10, y_of_error(last) + lowered), label, {.anchor = Anchor::start, .ink = ink == Ink::orange ? Ink::ink : ink, .size = 17});
     };
     rounds(newton_root<0>, Ink::vermillion, "guess");
     rounds(newton_root<1>, Ink::orange, "1 round");
-    rounds(newton_root<2>, Ink::blue, "2 rounds");
-    rounds(newton_root<3>, Ink::green, "3 rounds");
+    rounds(newton_root<2>, Ink::blue, "2 rounds", -4);
+    rounds(newton_root<3>, Ink::green, "3 rounds", 16);
     write(options, "fig_02_05", svg);
 }
 
