@@ -81,7 +81,8 @@ OrientedBoxes oriented_box_accuracy(std::uint64_t rays, std::uint64_t seed) {
     OrientedBoxes result{.rays = rays};
     for (std::uint64_t i = 0; i < rays; ++i) {
         // A turn by half the circle about a random axis after another one: any turn (Cartan-Dieudonné).
-        const glm::dquat turn = glm::dquat(0.0, random_direction(random)) * glm::dquat(0.0, random_direction(random));
+        const Double3 first = random_direction(random), second = random_direction(random);
+        const glm::dquat turn = glm::dquat(0.0, first) * glm::dquat(0.0, second);
         const Vector3 half = 0.5f + 0.5f * random_vector(random);
         const OrientedBox box{random_vector(random), glm::mat3(glm::mat3_cast(turn)), half};
         const Double3 target = Double3(box.center) + 1.5 * Double3(random_vector(random));

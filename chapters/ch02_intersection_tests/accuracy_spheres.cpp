@@ -7,7 +7,8 @@ namespace {
 
 /// Aimed at a point of the ball of radius 1.5 around the centre.
 Ray ray_at(const Sphere& sphere, double distance, Pcg32& random) {
-    const Double3 target = Double3(sphere.center) + 1.5 * random.uniform_double() * random_direction(random);
+    const double from_center = 1.5 * random.uniform_double();
+    const Double3 target = Double3(sphere.center) + from_center * random_direction(random);
     const Point3 origin(Double3(sphere.center) + distance * random_direction(random));
     return {.origin = origin, .direction = Point3(target) - origin};
 }

@@ -114,40 +114,47 @@ struct SlabSafe {
     static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
 };
 
-/// Never misses a box that the ray meets in exact arithmetic, and reports the interval a little too large.
+/// Never misses a box that the ray meets in exact arithmetic, and reports the interval a little too large: SlabSafe with
+/// two reciprocals, one a little short of 1 / d for the near planes, one a little beyond it for the far planes.
 ///
-/// A computed t carries three roundings (difference, reciprocal, product): |t' - t| <= gamma(3) |t|, or three times the
-/// smallest float where it underflows; gamma(n) = n u / (1 - n u), u = 2^-24 (Higham 2002, lemma 3.1; Ize 2013,
-/// JCGT 2:2, for positive t). So t >= t' - margin |t'| - tiny with margin = gamma(3) / (1 - gamma(3)) < 4 u, and
-/// the same upwards; the two roundings of the padding itself fit into the fifth u.
-/// The reciprocal of a direction below 2^-128 overflows: a ray with such a component takes the double path, where
-/// nothing does. Coordinates are at most 2^126, so that no difference overflows.
+/// A computed t carries four roundings, each by a factor of 1 +- u, u = 2^-24: the difference, the reciprocal, its
+/// shortening (or lengthening) and the product. (1 + u)^4 (1 - 5 u) < 1 < (1 - u)^4 (1 + 6 u), so the computed t is never
+/// farther from 0 than the exact one at a near plane, and never nearer at a far plane (Ize 2013, JCGT 2:2, lengthens the
+/// far one alone). That is the safe side for t >= 0; where the exact t is negative the computed one is, too, and either
+/// counts as little as the other as long as tmin >= 0. A product below 2^-126 is off by half the smallest float
+/// more; `tiny` covers that at both ends.
+/// Rays with tmin < 0 or with a reciprocal that is not a normal float, |d| < 2^-128 or |d| > 2^126, take the double path,
+/// where none of this matters. Coordinates are at most 2^126, so that no difference overflows.
 struct SlabConservative {
-    static constexpr float margin = 5.0f * 0x1p-24f;
-    static constexpr float tiny = 4.0f * std::numeric_limits<float>::denorm_min();
+    static constexpr float shorten = 1.0f - 5.0f * 0x1p-24f;
+    static constexpr float lengthen = 1.0f + 6.0f * 0x1p-24f;
+    static constexpr float tiny = 2.0f * std::numeric_limits<float>::denorm_min();
 
     struct Prepared : PreparedBoxRay {
-        bool in_double;
+        Vector3 far_inverse;  ///< and `inverse` is that for near planes
         Vector3 direction;
-        explicit Prepared(const Ray& ray) : PreparedBoxRay(ray), in_double(false), direction(ray.direction) {
+        bool in_double;
+
+        explicit Prepared(const Ray& ray)
+            : PreparedBoxRay(ray), far_inverse(inverse * lengthen), direction(ray.direction), in_double(!(ray.tmin >= 0.0f)) {
             for (int axis = 0; axis < 3; ++axis)
-                in_double = in_double || (ray.direction[axis] != 0.0f && !std::isfinite(inverse[axis]));
+                in_double = in_double || (direction[axis] != 0.0f && !std::isnormal(inverse[axis]));
+            inverse *= shorten;
         }
     };
 
     // [slab_conservative]
     static std::optional<Interval> intersect(const Prepared& ray, const Aabb& box) {
         if (ray.in_double) return in_double(ray, box);
-        float near = -infinity, far = infinity;
+        float enter = ray.tmin, leave = ray.tmax;
         for (int axis = 0; axis < 3; ++axis) {
             const bool backwards = std::signbit(ray.inverse[axis]);
-            const float t0 = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * ray.inverse[axis];
-            const float t1 = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * ray.inverse[axis];
-            near = t0 > near ? t0 : near;
-            far = t1 < far ? t1 : far;
+            const float near = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * ray.inverse[axis];
+            const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * ray.far_inverse[axis];
+            enter = near > enter ? near : enter;
+            leave = far < leave ? far : leave;
         }
-        const float enter = std::max(ray.tmin, near * (near > 0.0f ? 1.0f - margin : 1.0f + margin) - tiny);
-        const float leave = std::min(ray.tmax, far * (far > 0.0f ? 1.0f + margin : 1.0f - margin) + tiny);
+        leave += tiny;
         if (!(enter <= leave)) return std::nullopt;
         return Interval{enter, leave};
     }
@@ -165,9 +172,9 @@ struct SlabConservative {
                 if (low > 0.0 || high < 0.0) return std::nullopt;
                 continue;
             }
-            const auto [t0, t1] = std::minmax(low / ray.direction[axis], high / ray.direction[axis]);
-            near = std::max(near, t0);
-            far = std::min(far, t1);
+            const double t0 = low / ray.direction[axis], t1 = high / ray.direction[axis];
+            near = std::max(near, std::min(t0, t1));
+            far = std::min(far, std::max(t0, t1));
         }
         near -= double_margin * std::abs(near);
         far += double_margin * std::abs(far);

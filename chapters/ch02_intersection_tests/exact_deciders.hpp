@@ -20,7 +20,7 @@ inline bool operator<(const ExactFraction& a, const ExactFraction& b) {
 
 /// The closed box and the closed interval have a common t.
 inline bool exactly_hits(const Ray& ray, const Aabb& box) {
-    if (!is_valid(ray) || box.is_empty()) return false;
+    if (!is_valid(ray) || ray.tmin == infinity || ray.tmax == -infinity || box.is_empty()) return false;
     const auto number = [](float x) { return ExactFraction{difference(x, 0.0f), 1.0}; };
     // An infinite end bounds nothing.
     std::optional<ExactFraction> enter, leave;
