@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "common/error.hpp"
 #include "common/scene_makers.hpp"
@@ -25,9 +26,40 @@ TriangleMesh load_bunny() {
     return load_mesh(bunny_file);
 }
 
+/// What ./book scenes fetches; the environment may name another folder.
+TriangleMesh load_fetched(const char* name) {
+    const char* const folder = std::getenv("BOOK_SCENES");
+    const std::filesystem::path file = std::filesystem::path(folder ? folder : "build/scenes") / name;
+    if (!std::filesystem::exists(file))
+        throw input_error(
+            fmt::format("{}: not there; ./book scenes fetches it (BOOK_SCENES names its folder)", file.string()));
+    return load_mesh(file);
+}
+
 void make_bunny(Scene& scene, std::uint32_t, std::uint64_t) {
     scene.mesh = load_bunny();
     frame_mesh(scene);
+}
+void make_dragon_48k(Scene& scene, std::uint32_t, std::uint64_t) {
+    scene.mesh = load_fetched("dragon_48k.ply");
+    frame_mesh(scene);
+}
+void make_dragon_871k(Scene& scene, std::uint32_t, std::uint64_t) {
+    scene.mesh = load_fetched("dragon_871k.ply");
+    frame_mesh(scene);
+}
+void make_conference(Scene& scene, std::uint32_t, std::uint64_t) {
+    scene.mesh = load_fetched("conference.ply");
+    scene.camera = {.eye = {7.0f, 2.4f, 4.2f}, .target = {-2.0f, 0.6f, -0.5f}, .field_of_view = 60};
+    for (const double x : {-5.0, 0.0, 5.0}) add_light(scene, {x, 2.3, 0.3}, {x, 0.7, 0.0}, Color{0.50f, 0.48f, 0.44f});
+    add_light(scene, {7.0, 2.3, 4.2}, {3.0, 0.7, 0.5}, Color{0.30f, 0.30f, 0.33f});
+}
+void make_forest(Scene& scene, std::uint32_t, std::uint64_t) {
+    scene.mesh = load_fetched("forest.ply");
+    scene.camera = {.eye = {11.0f, 3.5f, 11.0f}, .target = {0.0f, 2.0f, 0.0f}, .field_of_view = 45};
+    scene.background = srgb(0xBFDCEC);
+    add_light(scene, {300, 500, 250}, {0, 0, 0}, Color{0.95f, 0.88f, 0.75f});
+    add_light(scene, {150, 100, 400}, {0, 0, 0}, Color{0.25f, 0.28f, 0.32f});
 }
 
 constexpr Maker makers[] = {
@@ -50,7 +82,11 @@ constexpr Maker makers[] = {
     {{"stadium", "a teapot in a stadium: nearly everything in one small place; SIZE: the teapot's detail", 12, 2, 300},
      make_stadium},
     {{"building", "a doll's house of SIZE storeys, each of eight furnished rooms", 3, 1, 200}, make_building},
-    {{"bunny", "Stanford's bunny, where Debian's package glmark2-data is installed", 0, 0, 0}, make_bunny},
+    {{"bunny", "Stanford's bunny, where Debian's package glmark2-data is installed", 0, 0, 0, true}, make_bunny},
+    {{"dragon_48k", "Stanford's dragon, coarse; ./book scenes fetches it", 0, 0, 0, true}, make_dragon_48k},
+    {{"dragon_871k", "Stanford's dragon; ./book scenes fetches it", 0, 0, 0, true}, make_dragon_871k},
+    {{"conference", "a conference room; ./book scenes puts it together", 0, 0, 0, true}, make_conference},
+    {{"forest", "plants on a wide ground; ./book scenes puts them together", 0, 0, 0, true}, make_forest},
 };
 
 const Maker* find_maker(std::string_view name) {

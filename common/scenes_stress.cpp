@@ -77,7 +77,7 @@ void make_soup(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
 void make_soup_uneven(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
     Pcg32 random(seed);
     for (std::uint32_t k = 1; k <= triangles; ++k) {
-        double radius = 0.5 / std::sqrt(k);
+        double radius = 0.55 / std::sqrt(k);
         if (k % 2 == 0) radius *= std::exp2(-14.0 * random.uniform_double());
         add_random_triangle(scene, radius, random);
     }

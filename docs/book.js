@@ -12,7 +12,12 @@ window.MathJax = {
   messageStyle: "none",
   tex2jax: { inlineMath: [["\\(", "\\)"]], displayMath: [["\\[", "\\]"]] },
   SVG: { font: "TeX", scale: 92, linebreaks: { automatic: true, width: "container" } },
-  AuthorInit: () => MathJax.Hub.Register.StartupHook("End", () => document.documentElement.classList.add("formulas-shown")),
+  TeX: { noErrors: { disabled: true }, noUndefined: { disabled: true } },
+  AuthorInit() {
+    for (const fault of ["TeX Jax - parse error", "TeX Jax - undefined macro", "Math Processing Error"])
+      MathJax.Hub.Register.MessageHook(fault, (message) => console.error("formula: " + message.slice(1, 3).join(": ")));
+    MathJax.Hub.Register.StartupHook("End", () => document.documentElement.classList.add("formulas-shown"));
+  },
 };
 
 function load(script) {
@@ -42,7 +47,8 @@ function score(entry, words) {
 function excerpt(entry, words) {
   const at = Math.max(0, entry.plainText.indexOf(words.find((word) => entry.plainText.includes(word)) ?? "") - 40);
   const start = at && entry.text.indexOf(" ", at) + 1;
-  return (start ? "… " : "") + entry.text.slice(start, start + 130) + (entry.text.length > start + 130 ? " …" : "");
+  const end = entry.text.length > start + 130 ? entry.text.lastIndexOf(" ", start + 130) : entry.text.length;
+  return (start ? "… " : "") + entry.text.slice(start, end) + (end < entry.text.length ? " …" : "");
 }
 
 function search() {

@@ -1,11 +1,11 @@
 #include "docs/finish.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <string_view>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -66,7 +66,8 @@ std::string dedent_fragments(const std::string& page) {
         for (std::size_t at = 0; (at = fragment.find(line_mark, at)) != fragment.npos;) {
             at += line_mark.size();
             const std::size_t text = fragment.find_first_not_of(' ', at);
-            if (!fragment.substr(text).starts_with("</div>")) indent = std::min(indent, text - at);  // an empty line has none
+            if (!fragment.substr(text).starts_with("</div>"))
+                indent = std::min(indent, text - at);  // an empty line has none
         }
         std::string result;
         for (std::size_t at; (at = fragment.find(line_mark)) != fragment.npos;) {

@@ -1,9 +1,9 @@
 #include "docs/ledger.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
@@ -28,14 +28,15 @@ std::vector<Chapter> read_chapters(const std::filesystem::path& root) {
     return read_json(root / "docs/chapters.json", [&](const nlohmann::json& document) {
         std::vector<Chapter> chapters;
         for (const auto& entry : document) {
-            const std::string folder = entry.at("folder");
+            const std::string folder = entry.at("folder"), begun = entry.value("begun", "");
             const auto dir = root / "chapters" / folder;
             chapters.push_back({.number = static_cast<int>(chapters.size()) + 1,
                                 .folder = folder,
                                 .title = entry.at("title"),
                                 .teaches = entry.at("teaches"),
                                 .sources = entry.at("sources"),
-                                .here = exists(dir / "chapter.dox") && exists(dir / "main.cpp")});
+                                .begun = begun,
+                                .here = begun.empty() && exists(dir / "chapter.dox") && exists(dir / "main.cpp")});
         }
         return chapters;
     });

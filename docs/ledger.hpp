@@ -15,7 +15,8 @@ struct Chapter {
     std::string folder;  ///< "ch01_naive_ray_tracing"; also the id of its page
     std::string title, teaches;
     std::vector<std::string> sources;
-    bool here;  ///< its text and its program stand
+    std::string begun;  ///< what stands of a chapter that is to come: it has a page, but owes no answers yet
+    bool here;          ///< its text and its program stand
 };
 
 /// A claim that a source makes, as listed in claims.json.

@@ -1,12 +1,12 @@
 /// Makes the book as a web site: writes the generated pages, runs Doxygen, finishes its pages, adds MathJax.
 /// Run   make_site --out build/book/site
+#include <fmt/format.h>
+
 #include <array>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -22,8 +22,12 @@ using namespace space;
 
 /// The part of MathJax that turns the book's formulas into SVG: 3 of 54 MB.
 void copy_mathjax(const fs::path& from, const fs::path& to) {
-    constexpr std::array parts{"MathJax.js", "config/TeX-AMS_SVG-full.js", "jax/element/mml",
-                               "jax/output/SVG/config.js", "jax/output/SVG/jax.js", "jax/output/SVG/autoload",
+    constexpr std::array parts{"MathJax.js",
+                               "config/TeX-AMS_SVG-full.js",
+                               "jax/element/mml",
+                               "jax/output/SVG/config.js",
+                               "jax/output/SVG/jax.js",
+                               "jax/output/SVG/autoload",
                                "jax/output/SVG/fonts/TeX"};
     for (const char* part : parts) {
         fs::create_directories((to / part).parent_path());
@@ -34,9 +38,10 @@ void copy_mathjax(const fs::path& from, const fs::path& to) {
 /// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
 void run_doxygen(const fs::path& work, const fs::path& site) {
     const std::string settings = read_file(fs::path(BOOK_DOXYFILE)) +
-                                 fmt::format("LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nEXAMPLE_PATH += \"{0}\"\n"
-                                             "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
-                                             work.string(), site.string());
+                                 fmt::format(
+                                     "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nEXAMPLE_PATH += \"{0}\"\n"
+                                     "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
+                                     work.string(), site.string());
     write_file(work / "Doxyfile", settings);
     fs::create_directories(site);
     const std::string command = fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, (work / "Doxyfile").string());
@@ -45,11 +50,13 @@ void run_doxygen(const fs::path& work, const fs::path& site) {
 }
 
 int make_site(int argc, char** argv) {
-    docs::Places places{.root = BOOK_ROOT, .configured = BOOK_CONFIGURED, .runs = fs::path(BOOK_ROOT) / "build/book", .pages = {}};
+    docs::Places places{
+        .root = BOOK_ROOT, .configured = BOOK_CONFIGURED, .runs = fs::path(BOOK_ROOT) / "build/book", .pages = {}};
     fs::path site = places.configured / "site";
     CLI::App app("Makes the book as a web site that opens from a local file.", "make_site");
     app.add_option("--out", site, "folder of the site; replaced as a whole")->capture_default_str();
-    app.add_option("--runs", places.runs, "what ./book run wrote; newer figures and results than the committed ones are shown")
+    app.add_option("--runs", places.runs,
+                   "what ./book run wrote; newer figures and results than the committed ones are shown")
         ->capture_default_str();
     parse_command_line(app, argc, argv);
 
@@ -73,4 +80,6 @@ int make_site(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return space::run_program("make_site", make_site, argc, argv); }
+int main(int argc, char** argv) {
+    return space::run_program("make_site", make_site, argc, argv);
+}

@@ -1,15 +1,15 @@
 #include "docs/pages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
 #include <regex>
 #include <sstream>
 #include <vector>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -28,10 +28,10 @@ struct Figure {
 
 /// An exercise as the head of its stub describes it.
 struct Exercise {
-    std::string chapter, name;     ///< "ch01_naive_ray_tracing", "ex02_shadow_test"
-    std::string id, title;         ///< "1.2", "The missing occlusion test"
+    std::string chapter, name;  ///< "ch01_naive_ray_tracing", "ex02_shadow_test"
+    std::string id, title;      ///< "1.2", "The missing occlusion test"
     int difficulty = 0, minutes = 0;
-    std::string task;              ///< Doxygen text
+    std::string task;  ///< Doxygen text
 };
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -78,8 +78,10 @@ Exercise read_exercise(const Places& places, const std::string& chapter, const s
     static const std::regex effort(R"(/// Difficulty (\d) of 3, about (\d+) minutes\.)");
     std::smatch first, second;
     if (lines.size() < 3 || !std::regex_match(lines[1], first, title) || !std::regex_match(lines[2], second, effort))
-        throw input_error(fmt::format("{}:2: expected \"/// Exercise N.M: title\" and then \"/// Difficulty D of 3, "
-                                      "about M minutes.\"", stub.string()));
+        throw input_error(
+            fmt::format("{}:2: expected \"/// Exercise N.M: title\" and then \"/// Difficulty D of 3, "
+                        "about M minutes.\"",
+                        stub.string()));
     Exercise exercise{.chapter = chapter,
                       .name = name,
                       .id = first[1],
@@ -111,12 +113,14 @@ std::optional<std::string> page_id(const fs::path& file) {
 }
 
 std::optional<std::string> page_id(const Places& places, const Chapter& chapter) {
-    if (!chapter.here) return std::nullopt;
+    if (!chapter.here && chapter.begun.empty()) return std::nullopt;
     return page_id(places.root / "chapters" / chapter.folder / "chapter.dox");
 }
 
 /// Raw HTML within a page. The block ends before an \endhtmlonly only.
-std::string raw(const std::string& markup) { return "\\htmlonly\n" + markup + "\\endhtmlonly\n\n"; }
+std::string raw(const std::string& markup) {
+    return "\\htmlonly\n" + markup + "\\endhtmlonly\n\n";
+}
 
 std::string plural(std::size_t count, const std::string& word) {
     return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
@@ -134,20 +138,21 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
                           const std::vector<Claim>& claims) {
     std::string rows;
     for (const Chapter& chapter : chapters) {
-        const auto owed = std::ranges::count_if(
-            claims, [&](const Claim& claim) { return std::ranges::find(claim.chapters, chapter.number) != claim.chapters.end(); });
-        std::string title = html(chapter.title), state = "to come";
-        if (const auto page = page_id(places, chapter)) {
-            title = fmt::format("<a href=\"{}.html\">{}</a>", *page, title);
-            state = fmt::format("<a href=\"figures.html#figures_{0}\">{1}</a> <a href=\"exercises.html#exercises_{0}\">{2}</a> "
-                                "<a href=\"ledger.html#claims_{0}\">{3}</a>",
-                                chapter.folder,
-                                plural(std::ranges::count(figures, chapter.folder, &Figure::chapter), "figure"),
-                                plural(std::ranges::count(exercises, chapter.folder, &Exercise::chapter), "exercise"),
-                                plural(owed, "claim"));
-        }
+        const auto owed = std::ranges::count_if(claims, [&](const Claim& claim) {
+            return std::ranges::find(claim.chapters, chapter.number) != claim.chapters.end();
+        });
+        std::string title = html(chapter.title), state = chapter.begun.empty() ? "to come" : chapter.begun;
+        if (const auto page = page_id(places, chapter)) title = fmt::format("<a href=\"{}.html\">{}</a>", *page, title);
+        if (chapter.here)
+            state = fmt::format(
+                "<a href=\"figures.html#figures_{0}\">{1}</a> <a href=\"exercises.html#exercises_{0}\">{2}</a> "
+                "<a href=\"ledger.html#claims_{0}\">{3}</a>",
+                chapter.folder, plural(std::ranges::count(figures, chapter.folder, &Figure::chapter), "figure"),
+                plural(std::ranges::count(exercises, chapter.folder, &Exercise::chapter), "exercise"),
+                plural(owed, "claim"));
         rows += fmt::format(
-            "<li class=\"{}\"><span class=\"number\">{}</span><div><b>{}</b><p>{}</p></div><span class=\"state\">{}</span></li>\n",
+            "<li class=\"{}\"><span class=\"number\">{}</span><div><b>{}</b><p>{}</p></div><span "
+            "class=\"state\">{}</span></li>\n",
             chapter.here ? "here" : "to-come", chapter.number, title, html(chapter.teaches), state);
     }
     return raw("<ol class=\"chapters\">\n" + rows + "</ol>\n");
@@ -158,12 +163,11 @@ std::string exercises_page(const std::vector<Chapter>& chapters, const std::vect
         "/*! \\page exercises Exercises\n\\tableofcontents{HTML:2}\n"
         "Each exercise is one small header of the book with something wrong or missing. It compiles as it stands. "
         "Change it until its check agrees:\n\n"
-        "| command | what it does |\n|---|---|\n"
-        "| `./book exercise` | lists all exercises and which of them are solved |\n"
-        "| `./book exercise check 1.1` | compiles and checks yours; a failed check says what it expected |\n"
-        "| `./book exercise hint 1.1` | the first hint, then the second, then the third |\n"
-        "| `./book exercise solution 1.1` | shows a solution |\n"
-        "| `./book exercise reset 1.1` | puts the untouched file back |\n\n"
+        "- `./book exercise` lists all exercises, and which of them are solved;\n"
+        "- `./book exercise check 1.1` compiles and checks yours; a failed check says what it expected;\n"
+        "- `./book exercise hint 1.1` gives the first hint, then the second, then the third;\n"
+        "- `./book exercise solution 1.1` shows a solution;\n"
+        "- `./book exercise reset 1.1` puts the untouched file back.\n\n"
         "Checks count and compare; none of them measures time.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(exercises, chapter.folder, &Exercise::chapter) == 0) continue;
@@ -175,8 +179,9 @@ std::string exercises_page(const std::vector<Chapter>& chapters, const std::vect
             std::string anchor = exercise.id;
             std::ranges::replace(anchor, '.', '_');
             text += fmt::format("\\subsection exercise_{} {} {}\n", anchor, exercise.id, exercise.title);
-            text += raw(fmt::format("<p class=\"effort\"><span title=\"difficulty {} of 3\">{}</span> about {} minutes</p>\n",
-                                    exercise.difficulty, dots, exercise.minutes));
+            text += raw(
+                fmt::format("<p class=\"effort\"><span title=\"difficulty {} of 3\">{}</span> about {} minutes</p>\n",
+                            exercise.difficulty, dots, exercise.minutes));
             text += exercise.task + "\n";
             text += fmt::format("Edit `chapters/{}/exercises/{}.hpp`, then run\n\n    ./book exercise check {}\n\n",
                                 exercise.chapter, exercise.name, exercise.id);
@@ -188,7 +193,8 @@ std::string exercises_page(const std::vector<Chapter>& chapters, const std::vect
 std::string figures_page(const std::vector<Chapter>& chapters, const std::vector<Figure>& figures) {
     std::string text =
         "/*! \\page figures Figures\n\\tableofcontents{HTML:1}\n"
-        "Every figure of the book is made by a program of the book: drawings are the algorithms' own output, charts are "
+        "Every figure of the book is made by a program of the book: drawings are the algorithms' own output, charts "
+        "are "
         "drawn from measurements. One command makes a figure again:\n\n    ./book figures fig_01_01\n\n"
         "A drawing is an SVG file that follows light and dark pages; a chart comes with its data.\n\n";
     for (const Chapter& chapter : chapters) {
@@ -217,9 +223,10 @@ std::string badge(const std::string& verdict) {
 
 std::string claim_card(const Claim& claim, const Answer* answer) {
     const std::string note = claim.note.empty() ? "" : ", " + html(claim.note);
-    std::string card = fmt::format("<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p class=\"says\">{}</p>\n",
-                                   answer ? answer->verdict : "open", claim.id, source_links({claim.source}), note,
-                                   badge(answer ? answer->verdict : "no answer yet"), html(claim.text));
+    std::string card = fmt::format(
+        "<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p class=\"says\">{}</p>\n",
+        answer ? answer->verdict : "open", claim.id, source_links({claim.source}), note,
+        badge(answer ? answer->verdict : "no answer yet"), html(claim.text));
     if (answer)
         card += fmt::format("<dl><dt>Measured</dt><dd>{}</dd><dt>Scene</dt><dd>{}</dd><dt>Rule</dt><dd>{}</dd></dl>\n",
                             html(answer->measured), html(answer->scene), html(answer->rule));
@@ -238,20 +245,19 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
             to_come += fmt::format("<tr class=\"group\"><th colspan=\"3\">Chapter {}: {}</th></tr>\n", chapter.number,
                                    html(chapter.title));
             for (const Claim* claim : mine)
-                to_come += fmt::format("<tr><td id=\"claim_{0}_{1}\">{0}</td><td>{2}{3}{4}</td><td>{5}</td></tr>\n", claim->id,
-                                       chapter.number, html(claim->text), claim->how.empty() ? "" : "; " + html(claim->how),
-                                       claim->note.empty() ? "" : " (" + html(claim->note) + ")",
-                                       source_links({claim->source}));
+                to_come += fmt::format(
+                    "<tr><td id=\"claim_{0}_{1}\">{0}</td><td>{2}{3}{4}</td><td>{5}</td></tr>\n", claim->id,
+                    chapter.number, html(claim->text), claim->how.empty() ? "" : "; " + html(claim->how),
+                    claim->note.empty() ? "" : " (" + html(claim->note) + ")", source_links({claim->source}));
             continue;
         }
         Answers answers;
         if (const fs::path file = newest_results(places.root, places.runs, chapter.number); !file.empty())
             answers = read_answers(file);
         sections += fmt::format("\\section claims_{} Chapter {}: {}\n", chapter.folder, chapter.number, chapter.title);
-        sections += raw(answers.machine.empty()
-                            ? "<p class=\"machine\">Not measured yet.</p>\n"
-                            : fmt::format("<p class=\"machine\">Measured on {}, on {}.</p>\n", html(answers.machine),
-                                          html(answers.date)));
+        sections += raw(answers.machine.empty() ? "<p class=\"machine\">Not measured yet.</p>\n"
+                                                : fmt::format("<p class=\"machine\">Measured on {}, on {}.</p>\n",
+                                                              html(answers.machine), html(answers.date)));
         for (const Claim* claim : mine) {
             const auto answer = std::ranges::find(answers.answers, claim->id, &Answer::claim);
             const bool answered = answer != answers.answers.end();
@@ -261,7 +267,8 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
     }
     std::string text =
         "/*! \\page ledger Claims and verdicts\n\\tableofcontents{HTML:1}\n"
-        "The sources of this book make claims and print numbers. Each chapter's program answers those that belong to it "
+        "The sources of this book make claims and print numbers. Each chapter's program answers those that belong to "
+        "it "
         "with what it measured, and computes the verdict by a rule that is stated here; no verdict is typed in. "
         "The sources: \\ref bibliography.\n\n";
     std::string tally;
@@ -278,7 +285,8 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
 
 std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
     const auto tab = [](const std::string& page, const std::string& title) {
-        return fmt::format("      <tab type=\"user\" visible=\"yes\" url=\"@ref {}\" title=\"{}\"/>\n", page, html(title));
+        return fmt::format("      <tab type=\"user\" visible=\"yes\" url=\"@ref {}\" title=\"{}\"/>\n", page,
+                           html(title));
     };
     std::string menu;
     for (const Chapter& chapter : chapters)
@@ -288,7 +296,8 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
     for (const auto& [file, title] : {std::pair{"glossary.dox", "Glossary"}, {"bibliography.dox", "Bibliography"}})
         if (const auto page = page_id(places.root / "docs" / file)) menu += tab(*page, title);
     if (exists(places.root / "docs/adding_a_chapter.md")) menu += tab("adding_a_chapter", "Adding a chapter");
-    return "<doxygenlayout version=\"1.0\">\n  <navindex>\n    <tab type=\"mainpage\" visible=\"yes\" title=\"The book\"/>\n" +
+    return "<doxygenlayout version=\"1.0\">\n  <navindex>\n    <tab type=\"mainpage\" visible=\"yes\" title=\"The "
+           "book\"/>\n" +
            menu +
            "    <tab type=\"usergroup\" visible=\"yes\" url=\"[none]\" title=\"Code\">\n"
            "      <tab type=\"classlist\" visible=\"yes\" title=\"Types\"/>\n"
@@ -303,11 +312,20 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
 std::string html(std::string_view text) {
     std::string result;
     for (const char c : text) switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
         }
     return result;
 }

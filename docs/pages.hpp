@@ -10,10 +10,10 @@ namespace space::docs {
 
 /// Where things are.
 struct Places {
-    std::filesystem::path root;       ///< the project
-    std::filesystem::path configured; ///< the build directory, with figures.json and exercises.txt
-    std::filesystem::path runs;       ///< what ./book run wrote, chNN/..., if it did
-    std::filesystem::path pages;      ///< where the generated pages go
+    std::filesystem::path root;        ///< the project
+    std::filesystem::path configured;  ///< the build directory, with figures.json and exercises.txt
+    std::filesystem::path runs;        ///< what ./book run wrote, chNN/..., if it did
+    std::filesystem::path pages;       ///< where the generated pages go
 };
 
 /// Writes *.dox, layout.xml and images/ into places.pages.

@@ -4,10 +4,14 @@
 
 #include <span>
 
+#include "common/chart.hpp"
 #include "common/figure.hpp"
 
 namespace space {
 
 std::span<const Figure> chapter01_figures();
+
+/// fig_01_08: the time of the same test in float and in double, and how many rays slip through a closed surface.
+Chart accuracy_chart(const Options& options);
 
 }  // namespace space

@@ -14,50 +14,55 @@
 namespace space {
 namespace {
 
-int samples = 2;  // --samples
+struct ChapterOptions : Options {
+    int samples = 0;
+};
 
-Options read_options(int argc, char** argv) {
-    return parse_options(argc, argv,
-                         {.name = "ch01_naive_ray_tracing",
-                          .about = "Chapter 1: naive ray tracing, wrong and right, beside a rasteriser",
-                          .defaults = {.scene = "room:3", .width = 240, .height = 180}},
-                         [](CLI::App& app) {
-                             app.add_option("--samples", samples, "rays per pixel and axis")
-                                 ->check(CLI::Range(1, 16))
-                                 ->capture_default_str();
-                             app.footer(
-                                 "Examples:\n"
-                                 "  ch01_naive_ray_tracing --out pictures           the chapter, in a minute or two\n"
-                                 "  ch01_naive_ray_tracing --quick --scene soup:500 another scene, fewer measurements\n"
-                                 "  ch01_naive_ray_tracing --scene bunny.ply --size 60x45 --samples 1\n"
-                                 "  ch01_naive_ray_tracing --figure all --out figures");
-                         });
+ChapterOptions read_options(int argc, char** argv) {
+    int samples = 0;
+    const auto add_samples = [&](CLI::App& app) {
+        app.add_option("--samples", samples, "rays per pixel and axis; default: 2, with --quick 1")
+            ->check(CLI::Range(1, 16));
+        app.footer(
+            "Examples:\n"
+            "  ch01_naive_ray_tracing --out pictures             the chapter, in two minutes\n"
+            "  ch01_naive_ray_tracing --quick --scene soup:500   another scene, fewer measurements\n"
+            "  ch01_naive_ray_tracing --scene bunny --size 60x45 --samples 1\n"
+            "  ch01_naive_ray_tracing --figure all --out figures");
+    };
+    ChapterOptions options{parse_options(argc, argv,
+                                         {.name = "ch01_naive_ray_tracing",
+                                          .about = "Chapter 1: naive ray tracing, wrong and right, beside a rasteriser",
+                                          .defaults = {.scene = "room:3", .width = 240, .height = 180}},
+                                         add_samples)};
+    if (options.small) options.width = 32, options.height = 24;
+    options.samples = samples ? samples : options.quick || options.small ? 1 : 2;
+    return options;
 }
 
 /// The same scene three times: by Algorithm 1 as it should be, as it is printed, and by the rasteriser.
-void draw_pictures(const Options& options) {
+void draw_pictures(const ChapterOptions& options) {
     // [pictures]
     const Scene scene = make_scene(options.scene, options.seed, options.small);
     const RenderSettings settings{
-        .width = options.width, .height = options.height, .samples = samples, .threads = options.threads};
+        .width = options.width, .height = options.height, .samples = options.samples, .threads = options.threads};
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
 
     Progress tracing("ray tracing " + options.scene, static_cast<std::size_t>(settings.height));
     const Rendering corrected = render(scene, naive, settings, &tracing);
 
-    // As printed, only what the list's last triangle leaves is seen; from back to front of the list that is a wall.
-    Scene reversed = scene;
-    std::reverse(reversed.mesh.faces.begin(), reversed.mesh.faces.end());
-    std::reverse(reversed.colors.begin(), reversed.colors.end());
+    // As printed, little is seen but the list's last triangle: some crumb on the table, or in reverse a wall.
+    const Scene reversed = in_reverse(scene);
     Progress as_printed("the same as printed", static_cast<std::size_t>(settings.height));
     const Rendering printed = algorithm1_as_printed(reversed, reversed.mesh.triangles(), settings, &as_printed);
 
     const Image rasterised = render_rasterised(scene, settings.width, settings.height, settings.samples);
     // [pictures]
 
-    print_heading(fmt::format("{}: {} triangles, {} lights, {} x {} pixels, {} each", options.scene,
-                              with_commas(scene.mesh.faces.size()), scene.lights.size(), settings.width,
-                              settings.height, samples == 1 ? "1 ray" : fmt::format("{} rays", samples * samples)));
+    print_heading(
+        fmt::format("{}: {} triangles, {} lights, {} x {} pixels, {} each", options.scene,
+                    with_commas(scene.mesh.faces.size()), scene.lights.size(), settings.width, settings.height,
+                    options.samples == 1 ? "1 ray" : fmt::format("{} rays", options.samples * options.samples)));
     const RenderCounts& counts = corrected.counts;
     Table table({"", "count", "per pixel"});
     const auto row = [&](const char* what, std::uint64_t count) {
@@ -72,57 +77,26 @@ void draw_pictures(const Options& options) {
     row("ray-triangle tests", counts.traversal.triangles_tested);
     table.print();
 
+    const Coverage coverage =
+        compare_coverage(scene, trace_depth(scene.camera, naive, settings.width, settings.height, settings.threads),
+                         rasterise(scene, settings.width, settings.height));
+    fmt::print(
+        "\nThe rasteriser sees another triangle in {} of {} pixels, {} of them within {:.4f} pixels of an edge\n"
+        "(farthest {:.4f}), {} where two triangles meet or overlap at the same depth.\n",
+        with_commas(coverage.disagree), with_commas(coverage.pixels), with_commas(coverage.near_edge),
+        coverage_distance(scene.camera, settings.width, settings.height), coverage.farthest,
+        with_commas(coverage.same_depth));
+
     write_png(options.out / "ch01_corrected.png", corrected.image);
     write_png(options.out / "ch01_as_printed.png", printed.image);
     write_png(options.out / "ch01_rasterised.png", rasterised);
     write_png(options.out / "ch01_side_by_side.png", side_by_side({corrected.image, printed.image, rasterised}));
 }
 
-void print_counts(const std::vector<SceneCounts>& all) {
-    print_heading("Tests per pixel, and hits that Algorithm 1 as printed erases");
-    Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse", "shadow rays",
-                 "occluded", "tests", "per pixel"});
-    for (const SceneCounts& s : all)
-        tests.row({s.scene, with_commas(s.triangles), with_commas(s.lights), with_commas(s.pixels),
-                   with_commas(s.rendering.hits), with_commas(s.hits_as_printed), with_commas(s.hits_in_reverse),
-                   with_commas(s.rendering.shadow_rays), with_commas(s.rendering.occluded),
-                   with_commas(s.rendering.traversal.triangles_tested),
-                   with_commas(s.rendering.traversal.triangles_tested / s.pixels)});
-    tests.print();
-
-    print_heading("Ray tracer and rasteriser: pixels in which they see different triangles");
-    Table coverage({"scene", "pixels", "covered", "differ", "near an edge", "same depth", "unexplained"});
-    for (const SceneCounts& s : all)
-        coverage.row({s.scene, with_commas(s.coverage.pixels), with_commas(s.coverage.covered),
-                      with_commas(s.coverage.disagree), with_commas(s.coverage.near_edge),
-                      with_commas(s.coverage.same_depth), with_commas(s.coverage.unexplained)});
-    coverage.print();
-}
-
-void print_times(const std::vector<GrowthPoint>& growth, const std::vector<SharePoint>& shares) {
-    print_heading("Time per pixel against triangles (one thread, medians of interleaved runs)");
-    Table times({"scene", "triangles", "naive, µs", "rasteriser, µs", "ratio"});
-    for (const GrowthPoint& point : growth)
-        times.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.1f}", point.naive_us),
-                   fmt::format("{:.4f}", point.rasteriser_us),
-                   fmt::format("{:.0f}", point.naive_us / point.rasteriser_us)});
-    times.print();
-
-    print_heading("Share of the time spent in intersection tests");
-    Table share({"scene", "triangles", "rendering, ms", "its tests alone, ms", "share"});
-    for (const SharePoint& point : shares)
-        share.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.2f}", point.rendering_ms),
-                   fmt::format("{:.2f}", point.intersections_ms), fmt::format("{:.1f} %", 100 * point.share())});
-    share.print();
-}
-
 int run(int argc, char** argv) {
-    Options options = read_options(argc, argv);
+    const ChapterOptions options = read_options(argc, argv);
     if (options.figure) return make_figures(chapter01_figures(), options);
     const Effort effort = effort_of(options);
-    if (effort == Effort::small) options.width = 32, options.height = 24, samples = 1;
-    if (effort == Effort::quick) samples = 1;
-
     draw_pictures(options);
     const std::vector<SceneCounts> counts = count_scenes(effort, options.seed, options.threads);
     print_counts(counts);
@@ -139,6 +113,7 @@ int run(int argc, char** argv) {
     print_times(growth, shares);
     write_chart(options.out, growth_chart(growth));
     write_chart(options.out, share_chart(shares));
+    write_chart(options.out, accuracy_chart(options));
     print_heading("The sources' claims");
     for (const ClaimAnswer& answer : results.answers)
         fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);

@@ -25,8 +25,8 @@ const std::array<Sizes, 5>& sized_scenes() {
         {"soup", {1'000, 10'000, 100'000, 1'000'000}, {10, 100, 1'000}},
         {"icosphere", {7, 22, 71, 224}, {1, 2, 7}},
         {"tetra", {5, 7, 8, 10}, {2, 3, 5}},
-        {"mount", {5, 6, 8}, {1, 3, 5}},
-        {"boxes", {80, 800, 8'000}, {1, 8, 80}},
+        {"slivers", {1'000, 10'000, 100'000}, {10, 100, 1'000}},
+        {"boxes", {80, 800, 8'000, 80'000}, {1, 8, 80}},
     }};
     return scenes;
 }
@@ -50,6 +50,11 @@ std::vector<Measured> series(std::size_t small_sizes, std::size_t large_sizes) {
 
 int rounds(Effort effort) {
     return effort == Effort::full ? 5 : 3;
+}
+
+/// How often one run repeats its work, so that it takes some milliseconds with few triangles too.
+int repeats_for(Effort effort, int work, double triangles) {
+    return effort == Effort::small ? 1 : std::max(1, static_cast<int>(work / triangles));
 }
 
 Winding check_winding(std::span<const Triangle> triangles) {
@@ -97,6 +102,12 @@ Effort effort_of(const Options& options) {
     return options.small ? Effort::small : options.quick ? Effort::quick : Effort::full;
 }
 
+Scene in_reverse(Scene scene) {
+    std::reverse(scene.mesh.faces.begin(), scene.mesh.faces.end());
+    std::reverse(scene.colors.begin(), scene.colors.end());
+    return scene;
+}
+
 std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigned threads) {
     constexpr std::array names{"room", "sphereflake", "soup", "icosphere", "lattice"};
     const int width = effort == Effort::small ? 24 : 40, height = effort == Effort::small ? 18 : 30;
@@ -108,9 +119,7 @@ std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigne
         const Naive<> naive = Naive<>::build(triangles);
         const RenderSettings settings{.width = width, .height = height, .threads = threads};
 
-        Scene reversed = scene;
-        std::reverse(reversed.mesh.faces.begin(), reversed.mesh.faces.end());
-        std::reverse(reversed.colors.begin(), reversed.colors.end());
+        const Scene reversed = in_reverse(scene);
         all.push_back(
             {.scene = name,
              .triangles = triangles.size(),
@@ -129,7 +138,7 @@ std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigne
 
 // [growth]
 std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
-    constexpr int naive_width = 8, naive_height = 6, width = 640, height = 480;
+    constexpr int naive_width = 8, naive_height = 6, width = 160, height = 120;
     const std::vector<Measured> scenes = effort == Effort::small   ? series(2, 0)
                                          : effort == Effort::quick ? series(0, 3)
                                                                    : series(0, 4);
@@ -138,14 +147,21 @@ std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
     for (const Measured& measured : scenes) {
         const Scene scene = make_scene(measured.spec, seed);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
+        const auto triangles = static_cast<double>(scene.mesh.faces.size());
+        const int repeats = repeats_for(effort, 20'000, triangles);
         const std::array<std::function<void()>, 2> candidates{
-            [&] { keep(render<NoCounts>(scene, naive, {.width = naive_width, .height = naive_height}).image); },
-            [&] { keep(render_rasterised(scene, width, height)); }};
+            [&] {
+                for (int i = 0; i < repeats; ++i)
+                    keep(render<NoCounts>(scene, naive, {.width = naive_width, .height = naive_height}).image);
+            },
+            [&] {
+                for (int i = 0; i < repeats; ++i) keep(rasterise(scene, width, height).pixels);
+            }};
         const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
         growth.push_back({.scene = measured.name,
-                          .triangles = static_cast<double>(scene.mesh.faces.size()),
-                          .naive_us = 1000.0 * ms[0] / (naive_width * naive_height),
-                          .rasteriser_us = 1000.0 * ms[1] / (width * height)});
+                          .triangles = triangles,
+                          .naive_us = 1000.0 * ms[0] / (repeats * naive_width * naive_height),
+                          .rasteriser_us = 1000.0 * ms[1] / (repeats * width * height)});
         progress.step();
     }
     return growth;
@@ -164,14 +180,21 @@ std::vector<SharePoint> measure_shares(Effort effort, std::uint64_t seed) {
         const Scene scene = make_scene(measured.spec, seed);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const RecordedRays rays = record_rays(scene, naive, width, height);
+        const auto triangles = static_cast<double>(scene.mesh.faces.size());
+        const int repeats = repeats_for(effort, 1'000, triangles);
         const std::array<std::function<void()>, 2> candidates{
-            [&] { keep(render<NoCounts>(scene, naive, {.width = width, .height = height}).image); },
             [&] {
-                for (const Ray& ray : rays.camera) keep(closest_hit(naive, ray));
-                for (const Ray& ray : rays.shadow) keep(any_hit(naive, ray));
+                for (int i = 0; i < repeats; ++i)
+                    keep(render<NoCounts>(scene, naive, {.width = width, .height = height}).image);
+            },
+            [&] {
+                for (int i = 0; i < repeats; ++i) {
+                    for (const Ray& ray : rays.camera) keep(closest_hit(naive, ray));
+                    for (const Ray& ray : rays.shadow) keep(any_hit(naive, ray));
+                }
             }};
         const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
-        shares.push_back({measured.name, static_cast<double>(scene.mesh.faces.size()), ms[0], ms[1]});
+        shares.push_back({measured.name, triangles, ms[0] / repeats, ms[1] / repeats});
         progress.step();
     }
     return shares;
@@ -311,6 +334,44 @@ std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, c
          "every "
          "scene, refuted if on none"},
     };
+}
+
+void print_counts(const std::vector<SceneCounts>& all) {
+    print_heading("Tests per pixel, and hits that Algorithm 1 as printed erases");
+    Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse", "shadow rays",
+                 "occluded", "tests", "per pixel"});
+    for (const SceneCounts& s : all)
+        tests.row({s.scene, with_commas(s.triangles), with_commas(s.lights), with_commas(s.pixels),
+                   with_commas(s.rendering.hits), with_commas(s.hits_as_printed), with_commas(s.hits_in_reverse),
+                   with_commas(s.rendering.shadow_rays), with_commas(s.rendering.occluded),
+                   with_commas(s.rendering.traversal.triangles_tested),
+                   with_commas(s.rendering.traversal.triangles_tested / s.pixels)});
+    tests.print();
+
+    print_heading("Ray tracer and rasteriser: pixels in which they see different triangles");
+    Table coverage({"scene", "pixels", "covered", "differ", "near an edge", "same depth", "unexplained"});
+    for (const SceneCounts& s : all)
+        coverage.row({s.scene, with_commas(s.coverage.pixels), with_commas(s.coverage.covered),
+                      with_commas(s.coverage.disagree), with_commas(s.coverage.near_edge),
+                      with_commas(s.coverage.same_depth), with_commas(s.coverage.unexplained)});
+    coverage.print();
+}
+
+void print_times(const std::vector<GrowthPoint>& growth, const std::vector<SharePoint>& shares) {
+    print_heading("Time per pixel against triangles (one thread, medians of interleaved runs)");
+    Table times({"scene", "triangles", "naive, µs", "rasteriser, µs", "ratio"});
+    for (const GrowthPoint& point : growth)
+        times.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.1f}", point.naive_us),
+                   fmt::format("{:.4f}", point.rasteriser_us),
+                   fmt::format("{:.0f}", point.naive_us / point.rasteriser_us)});
+    times.print();
+
+    print_heading("Share of the time spent in intersection tests");
+    Table share({"scene", "triangles", "rendering, ms", "its tests alone, ms", "share"});
+    for (const SharePoint& point : shares)
+        share.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.2f}", point.rendering_ms),
+                   fmt::format("{:.2f}", point.intersections_ms), fmt::format("{:.1f} %", 100 * point.share())});
+    share.print();
 }
 
 }  // namespace space

@@ -37,6 +37,8 @@ struct SceneCounts {
     Coverage coverage;
     Winding winding;
 };
+/// The scene with its triangles listed from the last to the first.
+Scene in_reverse(Scene scene);
 /// For five scenes. --small takes their small sizes.
 std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigned threads);
 
@@ -47,7 +49,7 @@ struct GrowthPoint {
     double triangles = 0;
     double naive_us = 0, rasteriser_us = 0;  ///< microseconds per pixel, medians of interleaved runs
 };
-/// Five scenes, 1 K to 1 M triangles.
+/// Five scenes, from 1 K to 1 M triangles (slivers to 100 K).
 std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed);
 
 /// Whitted's share. A picture is rendered once to record its rays; then rendering is timed, and beside it, in turns,
@@ -93,5 +95,9 @@ Slopes slopes(const std::vector<GrowthPoint>& growth, const std::string& scene);
 /// The answers to H1, H2, H3, H14 and P1.
 std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, const std::vector<GrowthPoint>& growth,
                                        const std::vector<SharePoint>& shares);
+
+/// Tables on the terminal.
+void print_counts(const std::vector<SceneCounts>& all);
+void print_times(const std::vector<GrowthPoint>& growth, const std::vector<SharePoint>& shares);
 
 }  // namespace space

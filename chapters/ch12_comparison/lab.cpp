@@ -179,7 +179,8 @@ void print_measurements(std::span<const Measurement> measurements, const LabOpti
                    with_commas(m.shape.references), with_commas(m.shape.bytes),
                    m.shape.sah_cost ? fmt::format("{:.2f}", *m.shape.sah_cost) : "-"});
     }
-    fmt::print("query   {}; times: medians of {}, threads: {}\n\n", query_name(options.query), options.repeat,
+    fmt::print("query   {}{}; times: medians of {}, threads: {}\n\n", query_name(options.query),
+               options.triangle_test.empty() ? "" : " by " + options.triangle_test, options.repeat,
                options.common.threads);
     work.print();
     fmt::print("\n");

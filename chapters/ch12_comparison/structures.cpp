@@ -19,6 +19,7 @@ struct NamedTest {
 // [triangle_tests]
 constexpr std::tuple triangle_tests{
     NamedTest<MollerTrumbore>{"moller-trumbore", "Möller & Trumbore 1997, in double"},
+    NamedTest<BasicMollerTrumbore<float>>{"moller-trumbore-float", "the same in float, which misses rays near edges"},
 };
 // [triangle_tests]
 

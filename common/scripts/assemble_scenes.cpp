@@ -15,8 +15,8 @@ namespace {
 using namespace space;
 namespace fs = std::filesystem;
 
-/// A model of the catalogue, `size` metres in x, y (up) and z, standing on y = 0 with its middle at x = z = 0. The files
-/// are in any unit.
+/// A model of the catalogue, `size` metres in x, y (up) and z, standing on y = 0 with its middle at x = z = 0. The
+/// files are in any unit.
 TriangleMesh model(const fs::path& file, const Double3& size) {
     const TriangleMesh mesh = load_mesh(file);
     const Aabb box = bounds(mesh);
@@ -38,8 +38,16 @@ TriangleMesh conference_room(const fs::path& furniture) {
     }
     for (const double x : {-4.5, 0.0, 4.5})
         for (const double z : {-0.9, 0.9}) room.append(box({x - 0.05, 0, z - 0.05}, {x + 0.05, 0.70, z + 0.05}));
-    for (int beam = 0; beam <= 64; ++beam) room.append(box({-8 + 0.25 * beam, 3.05, -5}, {-7.98 + 0.25 * beam, 3.1, 5}));
-    for (int beam = 0; beam <= 40; ++beam) room.append(box({-8, 3.1, -5 + 0.25 * beam}, {8, 3.15, -4.98 + 0.25 * beam}));
+    for (int beam = 0; beam <= 64; ++beam)
+        room.append(box({-8 + 0.25 * beam, 3.05, -5}, {-7.98 + 0.25 * beam, 3.1, 5}));
+    for (int beam = 0; beam <= 40; ++beam)
+        room.append(box({-8, 3.1, -5 + 0.25 * beam}, {8, 3.15, -4.98 + 0.25 * beam}));
+    // The ceiling's tiles lie in the grid, each a little lower than the beams' upper edge.
+    for (int row = 0; row < 40; ++row)
+        for (int column = 0; column < 64; ++column) {
+            const double x = -8 + 0.25 * column, z = -5 + 0.25 * row;
+            room.append(box({x + 0.03, 3.12, z + 0.03}, {x + 0.24, 3.14, z + 0.24}));
+        }
 
     const TriangleMesh chair = model(furniture / "blendswap-cc-0/chair/chair.obj", {0.513, 0.80, 0.531});
     for (int i = 0; i < 12; ++i) {
@@ -53,7 +61,7 @@ TriangleMesh conference_room(const fs::path& furniture) {
 
 /// A few plants in one corner of wavy, wide ground: small things in a big empty hull.
 TriangleMesh forest(const fs::path& furniture) {
-    constexpr int cells = 120;
+    constexpr int cells = 125;
     constexpr double side = 30;  // metres
     const auto height = [](double x, double z) { return 0.4 * std::sin(0.5 * x) * std::cos(0.37 * z); };
     TriangleMesh ground;
@@ -98,4 +106,6 @@ int assemble(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return space::run_program("assemble_scenes", assemble, argc, argv); }
+int main(int argc, char** argv) {
+    return space::run_program("assemble_scenes", assemble, argc, argv);
+}

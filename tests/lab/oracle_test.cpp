@@ -62,7 +62,7 @@ void require_agreement(const std::string& mesh_option, std::span<const Triangle>
 }
 
 void require_agreement_on_scenes(std::size_t rays_per_scene) {
-    for (const char* scene : {"room", "sphereflake", "soup", "icosphere", "soup:200"})
+    for (const char* scene : {"room", "sphereflake", "lattice", "soup_uneven", "stadium"})
         require_agreement(fmt::format("--scene {}", scene), make_scene(scene).mesh.triangles(), rays_per_scene);
 }
 

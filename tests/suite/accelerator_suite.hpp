@@ -1,12 +1,16 @@
 /// @file
-/// The suite that every structure of the book goes through. It compares a structure, ray by ray and bit for bit, with the
-/// naive loop over the same triangle test, in scenes and on rays where structures fail, and asks the exact oracle about
-/// a part of the rays. What it finds it calls by name.
+/// The suite that every structure of the book goes through. It compares a structure, ray by ray and bit for bit, with
+/// the naive loop over the same triangle test, in scenes and on rays where structures fail, and asks the exact oracle
+/// about a part of the rays. What it finds it calls by name.
 ///
 ///     TEST_CASE("the suite: k-d tree") {
 ///         check_accelerator<KdTree>("k-d tree", [](std::span<const Triangle> t) { return KdTree::build(t, {}); });
 ///     }
 #pragma once
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
@@ -16,12 +20,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <sys/wait.h>
 #include <type_traits>
-#include <unistd.h>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/accelerator.hpp"
@@ -41,9 +41,9 @@ inline constexpr std::string_view crashes_on_empty = "crashes on an empty scene"
 inline constexpr std::string_view crashes = "crashes";
 inline constexpr std::string_view hangs = "hangs";
 inline constexpr std::string_view throws = "throws";
-inline constexpr std::string_view drops_a_triangle = "drops a triangle";        // no ray ever finds it
-inline constexpr std::string_view prunes_too_early = "prunes too early";        // found alone, lost beside others
-inline constexpr std::string_view misses_a_hit = "misses a hit";                // lost on some rays, found on others
+inline constexpr std::string_view drops_a_triangle = "drops a triangle";  // no ray ever finds it
+inline constexpr std::string_view prunes_too_early = "prunes too early";  // found alone, lost beside others
+inline constexpr std::string_view misses_a_hit = "misses a hit";          // lost on some rays, found on others
 inline constexpr std::string_view invents_a_hit = "reports a hit that is none";
 inline constexpr std::string_view ignores_tmin = "ignores tmin";
 inline constexpr std::string_view ignores_tmax = "ignores tmax";
@@ -67,11 +67,12 @@ inline constexpr std::string_view beyond_exact = "errs beyond the bound of its t
 struct Failure {
     std::string_view fault;
     std::string scene;
-    std::string diagnosis;   ///< of the first: ray, expected, got
-    std::size_t times = 1;   ///< in this scene
+    std::string diagnosis;  ///< of the first: ray, expected, got
+    std::size_t times = 1;  ///< in this scene
 
     std::string text() const {
-        return fmt::format("{} [scene \"{}\", {} {}]: {}", fault, scene, times, times == 1 ? "time" : "times", diagnosis);
+        return fmt::format("{} [scene \"{}\", {} {}]: {}", fault, scene, times, times == 1 ? "time" : "times",
+                           diagnosis);
     }
 };
 
@@ -81,10 +82,12 @@ struct SuiteReport {
     Tally exact;  ///< of the rays that the exact oracle was asked about
 
     bool names(std::string_view fault) const {
-        return std::any_of(failures.begin(), failures.end(), [&](const Failure& failure) { return failure.fault == fault; });
+        return std::any_of(failures.begin(), failures.end(),
+                           [&](const Failure& failure) { return failure.fault == fault; });
     }
     std::string text() const {
-        std::string text = fmt::format("{} scenes, {} rays; exact oracle: {}\n", scenes, with_commas(rays), exact.text());
+        std::string text =
+            fmt::format("{} scenes, {} rays; exact oracle: {}\n", scenes, with_commas(rays), exact.text());
         for (const Failure& failure : failures) text += "  " + failure.text() + "\n";
         return text;
     }
@@ -98,8 +101,8 @@ struct SuiteOptions {
     int aimed_rays = 10'000;  ///< at edges and vertices, per scene
     int other_rays = 400;     ///< of each other kind, per scene
 #endif
-    int exact_rays = 100;     ///< about so many per scene for the exact oracle
-    unsigned patience = 60;   ///< seconds that a scene may take in the child before it counts as hanging
+    int exact_rays = 100;    ///< about so many per scene for the exact oracle
+    unsigned patience = 60;  ///< seconds that a scene may take in the child before it counts as hanging
     /// Tries each scene in a child process first, so that a crash or a hang becomes a failure with a name. Not for
     /// structures whose builders keep threads of a library alive: a child has none of them.
     bool in_child = true;
@@ -114,11 +117,13 @@ inline bool same_bits(const std::optional<Hit>& x, const std::optional<Hit>& y) 
 }
 
 inline std::string words(const Ray& ray) {
-    return fmt::format("origin ({:.9g}, {:.9g}, {:.9g}) direction ({:.9g}, {:.9g}, {:.9g}) [{:.9g}, {:.9g}]", ray.origin.x,
-                       ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, ray.tmin, ray.tmax);
+    return fmt::format("origin ({:.9g}, {:.9g}, {:.9g}) direction ({:.9g}, {:.9g}, {:.9g}) [{:.9g}, {:.9g}]",
+                       ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z,
+                       ray.tmin, ray.tmax);
 }
 inline std::string words(const std::optional<Hit>& hit) {
-    return hit ? fmt::format("triangle {} at t = {:.9g}, u = {:.9g}, v = {:.9g}", hit->triangle, hit->t, hit->u, hit->v) : "none";
+    return hit ? fmt::format("triangle {} at t = {:.9g}, u = {:.9g}, v = {:.9g}", hit->triangle, hit->t, hit->u, hit->v)
+               : "none";
 }
 
 enum class Fate { survived, crashed, hung, threw };
@@ -139,7 +144,8 @@ Fate fate_in_child(const Body& body, unsigned patience) {
         ::_exit(0);
     }
     int status = 0;
-    if (child < 0 || ::waitpid(child, &status, 0) != child) return Fate::survived;  // no child to be had: in this process, then
+    if (child < 0 || ::waitpid(child, &status, 0) != child)
+        return Fate::survived;  // no child to be had: in this process, then
     if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? Fate::hung : Fate::crashed;
     return WEXITSTATUS(status) == 0 ? Fate::survived : WEXITSTATUS(status) == threw ? Fate::threw : Fate::crashed;
 }
@@ -198,7 +204,8 @@ class Examination {
                 for (const TestRay& cut : RayMaker::cut_at(ray, hit->t)) rays.push_back(cut);
         };
         for (int i = 0; i < options_.other_rays; ++i) {
-            for (const TestRay& ray : {maker.random(), maker.axis_parallel(), maker.within_a_slab(), maker.from_vertex(), maker.from_face()}) {
+            for (const TestRay& ray : {maker.random(), maker.axis_parallel(), maker.within_a_slab(),
+                                       maker.from_vertex(), maker.from_face()}) {
                 rays.push_back(ray);
                 if (i % 8 == 0) add_cut(ray.ray);
             }
@@ -231,7 +238,8 @@ class Examination {
                 }
             },
             options_.patience);
-        const std::string where = fmt::format("building it from {} triangles and asking it a few rays", scene_->triangles.size());
+        const std::string where =
+            fmt::format("building it from {} triangles and asking it a few rays", scene_->triangles.size());
         if (fate == Fate::crashed) fail(scene_->triangles.empty() ? fault::crashes_on_empty : fault::crashes, where);
         if (fate == Fate::hung) fail(fault::hangs, where);
         if (fate == Fate::threw) fail(fault::throws, where);
@@ -241,19 +249,22 @@ class Examination {
     void check_shape(const TreeShape& shape) {
         const auto require = [&](bool holds, std::string_view rule) {
             if (!holds)
-                fail(fault::wrong_shape,
-                     fmt::format("{}: nodes {}, leaves {}, depth {}, references {}, bytes {}", rule, shape.nodes.value_or(0),
-                                 shape.leaves.value_or(0), shape.depth.value_or(0), shape.references, shape.bytes));
+                fail(fault::wrong_shape, fmt::format("{}: nodes {}, leaves {}, depth {}, references {}, bytes {}", rule,
+                                                     shape.nodes.value_or(0), shape.leaves.value_or(0),
+                                                     shape.depth.value_or(0), shape.references, shape.bytes));
         };
         if (shape.nodes && shape.leaves) {
             require(*shape.leaves <= *shape.nodes, "no more leaves than nodes");
             require(*shape.nodes == 0 || *shape.leaves > 0, "a tree has a leaf");
         }
-        if (shape.nodes && shape.depth) require(*shape.depth <= (*shape.nodes ? *shape.nodes - 1 : 0), "a path has no more edges than nodes");
-        if (shape.sah_cost) require(std::isfinite(*shape.sah_cost) && *shape.sah_cost >= 0.0, "the cost is a number, and not negative");
+        if (shape.nodes && shape.depth)
+            require(*shape.depth <= (*shape.nodes ? *shape.nodes - 1 : 0), "a path has no more edges than nodes");
+        if (shape.sah_cost)
+            require(std::isfinite(*shape.sah_cost) && *shape.sah_cost >= 0.0, "the cost is a number, and not negative");
         require(shape.bytes > 0, "it takes memory");
-        const auto with_area = static_cast<std::size_t>(std::count_if(
-            scene_->triangles.begin(), scene_->triangles.end(), [](const Triangle& t) { return normal(t) != Double3(0.0); }));
+        const auto with_area =
+            static_cast<std::size_t>(std::count_if(scene_->triangles.begin(), scene_->triangles.end(),
+                                                   [](const Triangle& t) { return normal(t) != Double3(0.0); }));
         require(shape.references >= with_area, "each triangle with an area is in a leaf");
     }
 
@@ -262,7 +273,8 @@ class Examination {
         Answer expected, got;
     };
 
-    std::vector<Answer> check_answers(const A& accelerator, const Reference& reference, const std::vector<TestRay>& rays) {
+    std::vector<Answer> check_answers(const A& accelerator, const Reference& reference,
+                                      const std::vector<TestRay>& rays) {
         // Which triangles are the nearest for some ray, and which of those are found.
         std::vector<bool> expected_once(scene_->triangles.size()), found_once(scene_->triangles.size());
         std::vector<Mismatch> mismatches;
@@ -285,8 +297,8 @@ class Examination {
             if (any != expected.has_value()) fail(any_fault(reference, ray, any), described_any(test, any));
         }
         for (const Mismatch& mismatch : mismatches) {
-            const bool dropped =
-                mismatch.expected && expected_once[mismatch.expected->triangle] && !found_once[mismatch.expected->triangle];
+            const bool dropped = mismatch.expected && expected_once[mismatch.expected->triangle] &&
+                                 !found_once[mismatch.expected->triangle];
             fail(closest_fault(accelerator, mismatch, dropped), described(mismatch));
         }
         return answers;
@@ -323,14 +335,16 @@ class Examination {
     }
 
     std::string described(const Mismatch& m) const {
-        return fmt::format("{} ray {}: expected {}, got {}", m.ray->kind, words(m.ray->ray), words(m.expected), words(m.got));
+        return fmt::format("{} ray {}: expected {}, got {}", m.ray->kind, words(m.ray->ray), words(m.expected),
+                           words(m.got));
     }
     std::string described_any(const TestRay& test, bool any) const {
         return fmt::format("{} ray {}: any_hit is {}", test.kind, words(test.ray), any);
     }
 
     /// Built again and asked from several threads at once, it has the same shape and gives the same answers.
-    void check_second_build(const A& accelerator, const std::vector<Answer>& answers, const std::vector<TestRay>& rays) {
+    void check_second_build(const A& accelerator, const std::vector<Answer>& answers,
+                            const std::vector<TestRay>& rays) {
         const A second = build_(scene_->triangles);
         std::vector<Answer> again(rays.size());
         parallel_for(rays.size(), 4, 64, [&](std::size_t i) { again[i] = closest_hit(second, rays[i].ray); });
@@ -341,9 +355,10 @@ class Examination {
             fail(alone_too ? fault::builds_differ : fault::threads_matter, described({&rays[i], answers[i], again[i]}));
         }
         const TreeShape x = accelerator.shape(), y = second.shape();
-        if (x.nodes != y.nodes || x.leaves != y.leaves || x.depth != y.depth || x.references != y.references || x.sah_cost != y.sah_cost)
-            fail(fault::builds_differ, fmt::format("nodes {} and {}, references {} and {}", x.nodes.value_or(0), y.nodes.value_or(0),
-                                                   x.references, y.references));
+        if (x.nodes != y.nodes || x.leaves != y.leaves || x.depth != y.depth || x.references != y.references ||
+            x.sah_cost != y.sah_cost)
+            fail(fault::builds_differ, fmt::format("nodes {} and {}, references {} and {}", x.nodes.value_or(0),
+                                                   y.nodes.value_or(0), x.references, y.references));
     }
 
     void check_exactly(const std::vector<Answer>& answers, const std::vector<TestRay>& rays) {

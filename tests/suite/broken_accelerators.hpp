@@ -2,9 +2,10 @@
 /// Naive tracing with one fault each: the suite must catch them, and call them by name.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <stdexcept>
-#include <unistd.h>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 
@@ -13,25 +14,25 @@ namespace space {
 enum class Flaw {
     none,
     drops_a_triangle,
-    prunes_too_early,      ///< takes the hit of the first "leaf" of four triangles that has one
+    prunes_too_early,  ///< takes the hit of the first "leaf" of four triangles that has one
     ignores_tmin,
     ignores_tmax,
     open_interval,
-    forgets_ties,          ///< keeps the last of equally near triangles
-    stale_uv,              ///< u and v of the hit found before
-    invents_hits,          ///< hits the whole plane's half around a triangle: u + v is not checked
+    forgets_ties,  ///< keeps the last of equally near triangles
+    stale_uv,      ///< u and v of the hit found before
+    invents_hits,  ///< hits the whole plane's half around a triangle: u + v is not checked
     any_ignores_tmin,
     any_ignores_tmax,
     any_misses,            ///< any_hit skips the last triangle
     answers_invalid_rays,  ///< an interval that holds nothing is turned round
     counting_matters,      ///< one triangle fewer when nobody counts
     counts_nothing,
-    wrong_shape,           ///< more leaves than nodes
-    builds_differ,         ///< every second build drops its first triangle
+    wrong_shape,    ///< more leaves than nodes
+    builds_differ,  ///< every second build drops its first triangle
     crashes_on_empty,
     throws_on_empty,
     hangs_on_empty,
-    state_between_rays,    ///< answers a ray like the one before, now and then
+    state_between_rays,  ///< answers a ray like the one before, now and then
 };
 
 template <Flaw flaw>
@@ -71,7 +72,8 @@ class Broken {
             std::optional<Hit> hit = intersect(ray, triangles_[i]);
             if (!hit) continue;
             hit->triangle = i;
-            const bool better = !nearest || (flaw == Flaw::forgets_ties ? hit->t <= nearest->t : nearer(*hit, *nearest));
+            const bool better =
+                !nearest || (flaw == Flaw::forgets_ties ? hit->t <= nearest->t : nearer(*hit, *nearest));
             if (!better) continue;
             if (flaw == Flaw::stale_uv) {
                 std::swap(hit->u, u);

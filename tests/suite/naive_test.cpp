@@ -25,7 +25,8 @@ Tally compared(std::span<const Triangle> triangles, const std::vector<Ray>& rays
     const Naive<> naive = Naive<>::build(triangles);
     const ExactOracle oracle = ExactOracle::build(triangles);
     std::vector<Comparison> comparisons(rays.size());
-    parallel_for(rays.size(), threads, 16, [&](std::size_t i) { comparisons[i] = compare(oracle, rays[i], closest_hit(naive, rays[i])); });
+    parallel_for(rays.size(), threads, 16,
+                 [&](std::size_t i) { comparisons[i] = compare(oracle, rays[i], closest_hit(naive, rays[i])); });
     Tally tally;
     for (const Comparison& comparison : comparisons) tally.add(comparison);
     return tally;
@@ -45,11 +46,11 @@ TEST_CASE("the suite: naive tracing") {
 
 TEST_CASE("naive tracing is exactly right on 10^5 random rays over five scenes") {
     Tally sum;
-    for (const TestScene& scene : {TestScene{"soup", scenes::soup(300, 0.2f, 101)}, TestScene{"uneven", adversarial_scenes()[5].triangles},
-                                   TestScene{"ball", scenes::ball(3)}, TestScene{"dense", scenes::soup(150, 1.0f, 102)},
-                                   TestScene{"far away", scenes::mapped(scenes::soup(300, 0.3f, 103), [](const Point3& p) {
-                                                 return p + Point3(1e4f, -2e4f, 3e4f);
-                                             })}}) {
+    for (const TestScene& scene :
+         {TestScene{"soup", scenes::soup(300, 0.2f, 101)}, TestScene{"uneven", adversarial_scenes()[5].triangles},
+          TestScene{"ball", scenes::ball(3)}, TestScene{"dense", scenes::soup(150, 1.0f, 102)},
+          TestScene{"far away", scenes::mapped(scenes::soup(300, 0.3f, 103),
+                                               [](const Point3& p) { return p + Point3(1e4f, -2e4f, 3e4f); })}}) {
         RayMaker maker(scene.triangles, 104);
         const Tally tally = compared(scene.triangles, rays_of(random_rays, [&] { return maker.random(); }));
         fmt::print("{} ({} triangles), random rays: {}\n", scene.name, scene.triangles.size(), tally.text());
@@ -65,7 +66,8 @@ TEST_CASE("on rays at edges and vertices naive tracing errs only within its erro
     for (const TestScene& scene : adversarial_scenes()) {
         RayMaker maker(scene.triangles, 105);
         int i = 0;
-        const Tally tally = compared(scene.triangles, rays_of(aimed_rays, [&] { return ++i % 2 ? maker.at_edge() : maker.at_vertex(); }));
+        const Tally tally = compared(
+            scene.triangles, rays_of(aimed_rays, [&] { return ++i % 2 ? maker.at_edge() : maker.at_vertex(); }));
         fmt::print("{}, rays at edges and vertices: {}\n", scene.name, tally.text());
         INFO(scene.name << ": " << tally.text());
         CHECK(tally.beyond_bound == 0);

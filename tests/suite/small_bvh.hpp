@@ -1,6 +1,6 @@
 /// @file
-/// The smallest tree that passes the suite, and the same with faults of traversal: what the suite itself is tested with.
-/// (How to build a good one is the matter of chapter 7.)
+/// The smallest tree that passes the suite, and the same with faults of traversal: what the suite itself is tested
+/// with. (How to build a good one is the matter of chapter 7.)
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace space {
 /// What is left out of a correct traversal.
 enum class TreeFlaw {
     none,
-    box_equals_pruned,    ///< a box that begins at the best t is skipped: ties are lost
-    first_leaf_wins,      ///< stops at the first leaf with a hit
-    nan_box_test,         ///< 0 * infinity on a box's face rejects the box
-    vertices_only,        ///< boxes of a triangle's first two vertices
+    box_equals_pruned,  ///< a box that begins at the best t is skipped: ties are lost
+    first_leaf_wins,    ///< stops at the first leaf with a hit
+    nan_box_test,       ///< 0 * infinity on a box's face rejects the box
+    vertices_only,      ///< boxes of a triangle's first two vertices
 };
 
 template <TreeFlaw flaw = TreeFlaw::none>

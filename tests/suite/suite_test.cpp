@@ -45,8 +45,8 @@ TEST_CASE("the suite passes a correct tree with all its rays") {
     check_accelerator<SmallBvh<>>("the smallest tree", build<SmallBvh<>>);
 }
 
-#define NAMED(flaw, name)                           \
-    TEST_CASE("the suite catches by name: " #flaw) { \
+#define NAMED(flaw, name)                             \
+    TEST_CASE("the suite catches by name: " #flaw) {  \
         const SuiteReport report = report_on<flaw>(); \
         INFO(report.text());                          \
         CHECK(report.names(name));                    \

@@ -2,6 +2,8 @@
 /// What must hold in every tree of boxes, with a diagnosis when it does not.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -9,8 +11,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "common/geometry.hpp"
 
@@ -27,8 +27,9 @@ struct TreeNode {
 struct TreeRules {
     bool boxes_hold_triangles = true;  ///< bounding volumes: a leaf's box contains its triangles
     bool tight = false;                ///< a box is no larger than its triangles need
-    bool cells_hold_pieces = false;    ///< cells of space: where a triangle passes through a leaf's cell, the leaf names it
-    bool once = true;                  ///< each triangle is in exactly one leaf
+    bool cells_hold_pieces =
+        false;         ///< cells of space: where a triangle passes through a leaf's cell, the leaf names it
+    bool once = true;  ///< each triangle is in exactly one leaf
     std::size_t max_leaf_size = std::numeric_limits<std::size_t>::max();
 };
 
@@ -39,7 +40,8 @@ inline std::string excess(const Aabb& inner, const Aabb& outer) {
     double worst = 0.0;
     int worst_axis = 0;
     for (int axis = 0; axis < 3; ++axis)
-        for (const double beyond : {double{outer.min[axis]} - double{inner.min[axis]}, double{inner.max[axis]} - double{outer.max[axis]}})
+        for (const double beyond :
+             {double{outer.min[axis]} - double{inner.min[axis]}, double{inner.max[axis]} - double{outer.max[axis]}})
             if (beyond > worst) worst = beyond, worst_axis = axis;
     return worst > 0.0 ? fmt::format("by {:.3g} on {}", worst, "xyz"[worst_axis]) : std::string();
 }
@@ -57,7 +59,8 @@ inline std::vector<Double3> sample_points(const Triangle& triangle) {
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; i + j <= steps; ++j)
             points.push_back((double(i) * Double3(triangle.a) + double(j) * Double3(triangle.b) +
-                              double(steps - i - j) * Double3(triangle.c)) / double{steps});
+                              double(steps - i - j) * Double3(triangle.c)) /
+                             double{steps});
     return points;
 }
 
@@ -113,7 +116,8 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
         Aabb content;
         for (const std::uint32_t child : node.children) {
             content.extend(nodes[child].box);
-            if (const std::string by = detail::excess(nodes[child].box, node.box); !by.empty() && !nodes[child].box.is_empty())
+            if (const std::string by = detail::excess(nodes[child].box, node.box);
+                !by.empty() && !nodes[child].box.is_empty())
                 fault("node {}: child {} exceeds parent {}", i, child, by);
         }
         if (!node.children.empty() && !node.triangles.empty()) fault("node {}: has children and triangles", i);
@@ -146,7 +150,8 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
 
     if (rules.cells_hold_pieces) {
         const Vector3 extent = nodes[0].box.extent();
-        const double slack = 1e-6 * std::max({extent.x, extent.y, extent.z});  // what rounding a split's position may move
+        const double slack =
+            1e-6 * std::max({extent.x, extent.y, extent.z});  // what rounding a split's position may move
         for (std::size_t id = 0; id < triangles.size(); ++id)
             for (const Double3& p : detail::sample_points(triangles[id])) {
                 const auto in_leaf = [&](const TreeNode& node, double margin) {
@@ -157,9 +162,11 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
                            std::find(node.triangles.begin(), node.triangles.end(), id) != node.triangles.end();
                 };
                 if (std::any_of(nodes.begin(), nodes.end(), named)) continue;
-                const auto leaf = std::find_if(nodes.begin(), nodes.end(), [&](const TreeNode& node) { return in_leaf(node, 0.0); });
+                const auto leaf =
+                    std::find_if(nodes.begin(), nodes.end(), [&](const TreeNode& node) { return in_leaf(node, 0.0); });
                 if (leaf == nodes.end()) continue;  // outside the tree's box
-                fault("node {}: triangle {} passes through the cell, and the leaf does not name it", leaf - nodes.begin(), id);
+                fault("node {}: triangle {} passes through the cell, and the leaf does not name it",
+                      leaf - nodes.begin(), id);
                 break;
             }
     }

@@ -12,7 +12,9 @@ namespace {
 const std::vector<Triangle> triangles{
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{2, 0, 0}, {3, 0, 0}, {2, 1, 1}}, {{4, 0, 0}, {5, 0, 0}, {4, 1, 0}}};
 
-Aabb box(Point3 low, Point3 high) { return {low, high}; }
+Aabb box(Point3 low, Point3 high) {
+    return {low, high};
+}
 
 /// Root 0 with the leaf 1 (triangle 0) and the node 2, which has the leaves 3 (triangle 1) and 4 (triangle 2).
 std::vector<TreeNode> good_tree() {
@@ -110,7 +112,9 @@ TEST_CASE("the trees of all adversarial scenes keep the rules; boxes of too few 
         INFO(scene.name);
         CHECK(diagnosis(tree_faults(SmallBvh<>::build(scene.triangles).nodes(), scene.triangles,
                                     {.tight = true, .max_leaf_size = 4})) == "");
-        caught = caught || !tree_faults(SmallBvh<TreeFlaw::vertices_only>::build(scene.triangles).nodes(), scene.triangles).empty();
+        caught =
+            caught ||
+            !tree_faults(SmallBvh<TreeFlaw::vertices_only>::build(scene.triangles).nodes(), scene.triangles).empty();
     }
     CHECK(caught);
 }
