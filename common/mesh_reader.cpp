@@ -150,7 +150,7 @@ void check_obj(Source& source) {
         source.fail_at(largest_at, fmt::format("vertex index {}, but the file has {} vertices", largest, vertices));
 }
 
-/// Takes the next word of an OFF header, which may stand on any line, and as a count it must fit into the file.
+/// Takes the next word of an OFF header; comments and line ends may stand between its words.
 std::string_view take_off_word(std::string_view& rest) {
     for (;;) {
         const std::string_view word = take_word(rest, white_space);

@@ -170,7 +170,7 @@ std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
 
 // [share]
 std::vector<SharePoint> measure_shares(Effort effort, std::uint64_t seed) {
-    constexpr int width = 32, height = 24;
+    constexpr int width = 20, height = 15;
     const std::vector<Measured> scenes = effort == Effort::small   ? series(2, 0)
                                          : effort == Effort::quick ? series(3, 0)
                                                                    : series(2, 2);
@@ -193,7 +193,7 @@ std::vector<SharePoint> measure_shares(Effort effort, std::uint64_t seed) {
                     for (const Ray& ray : rays.shadow) keep(any_hit(naive, ray));
                 }
             }};
-        const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
+        const std::vector<double> ms = interleaved_medians(candidates, 2 * rounds(effort) + 1);
         shares.push_back({measured.name, triangles, ms[0] / repeats, ms[1] / repeats});
         progress.step();
     }
