@@ -236,7 +236,7 @@ void draw_filter(const Options& options) {
         svg.text(at(x, y + 44), label, {});
     };
     mark(zero, "0");
-    mark(size, "|*D*|");
+    mark(size, "|*det*|");
     const auto name = [&](double x, const char* label) { svg.text(at(x, y - 30), label, {.bold = true}); };
     name(92, "miss");
     name(zero, "unsure");
