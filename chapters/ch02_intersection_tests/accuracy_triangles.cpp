@@ -23,7 +23,9 @@ TriangleAccuracy triangle_accuracy(const TriangleInput& input, std::uint64_t pai
     const auto parts = count_by_chunks<TriangleAccuracy>(pairs, seed, threads, [&](Pcg32& random, std::uint64_t count) {
         TriangleAccuracy part;
         for (std::uint64_t i = 0; i < count; ++i) {
-            const auto [ray, triangle] = make_pair(input, random);
+            const RayAndTriangle pair = make_pair(input, random);
+            const Ray& ray = pair.ray;
+            const Triangle& triangle = pair.triangle;
             const bool hits = FilteredExact::intersect(ray, triangle, part.stages).has_value();
             const double t = hits ? exact_t(ray, triangle) : 0.0;
             part.exact_hits += hits;

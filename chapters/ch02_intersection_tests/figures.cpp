@@ -5,6 +5,7 @@
 #include "chapters/ch02_intersection_tests/drawings.hpp"
 #include "chapters/ch02_intersection_tests/drawings.hpp"
 #include "chapters/ch02_intersection_tests/far_pictures.hpp"
+#include "chapters/ch02_intersection_tests/measurements.hpp"
 #include "common/file.hpp"
 #include "common/report.hpp"
 #include "common/svg.hpp"
@@ -40,11 +41,27 @@ void fig_02_10(const Options& options) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
+// 2.11 to 2.14 Charts: only what each of them shows is measured
+
+using Part = void (*)(const Options&, Measurements&);
+
+template <Chart (*chart)(const Measurements&), Part... parts>
+void measured_chart(const Options& options) {
+    Measurements measured;
+    (parts(options, measured), ...);
+    write_chart(options.out, chart(measured));
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
 
 constexpr Figure figures[] = {
     {"fig_02_01", FigureKind::drawing, draw_shared_edge}, {"fig_02_02", FigureKind::drawing, draw_slabs},
     {"fig_02_03", FigureKind::drawing, draw_filter},      {"fig_02_04", FigureKind::drawing, draw_sphere},
     {"fig_02_05", FigureKind::drawing, draw_newton_root}, {"fig_02_10", FigureKind::drawing, fig_02_10},
+    {"fig_02_11", FigureKind::chart, measured_chart<triangle_chart, count_leaks, time_triangles>},
+    {"fig_02_12", FigureKind::chart, measured_chart<root_chart, count_roots, time_others>},
+    {"fig_02_13", FigureKind::chart, measured_chart<box_chart, count_boxes, time_patterns>},
+    {"fig_02_14", FigureKind::chart, measured_chart<sphere_chart, count_spheres, time_others>},
 };
 
 }  // namespace

@@ -58,7 +58,18 @@ struct Measurements {
     std::vector<PatternTimes> pattern_times;
     std::vector<Timed> sphere_times, plane_times;
 };
-/// Counts do not depend on the number of threads; times are taken on one, after the counting.
+
+/// The parts, each of which fills in its own members. Counts do not depend on the number of threads; times are taken on
+/// one.
+void count_triangles(const Options& options, Measurements& measured);
+void count_leaks(const Options& options, Measurements& measured);
+void count_roots(const Options& options, Measurements& measured);
+void count_boxes(const Options& options, Measurements& measured);
+void count_spheres(const Options& options, Measurements& measured);
+void count_bounces(const Options& options, Measurements& measured);
+void time_triangles(const Options& options, Measurements& measured);
+void time_patterns(const Options& options, Measurements& measured);  ///< boxes, and orders of a triangle test
+void time_others(const Options& options, Measurements& measured);    ///< roots, spheres, planes
 Measurements measure(const Options& options);
 
 /// A test's time as a multiple of MollerTrumboreFloat's on the same scene.

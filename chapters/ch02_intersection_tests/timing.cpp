@@ -190,7 +190,7 @@ Leaves leaves_of(Pattern pattern) {
 std::vector<Timed> time_orders(Pattern pattern, int rounds) {
     const Leaves leaves = leaves_of(pattern);
     Race race;
-    race.add("cheap first", [&] { keep(test_leaves<MollerTrumboreFloat>(leaves, leaves.triangles)); });
+    race.add("cheap first", [&] { keep(test_leaves<CheapFirst>(leaves, leaves.triangles)); });
     race.add("expensive first", [&] { keep(test_leaves<ExpensiveFirst>(leaves, leaves.triangles)); });
     race.add("decide last", [&] { keep(test_leaves<DecideLast>(leaves, leaves.triangles)); });
     return race.times(static_cast<double>(leaves.tests()), rounds);

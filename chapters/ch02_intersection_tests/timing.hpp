@@ -55,7 +55,7 @@ enum class Pattern {
 inline constexpr Pattern patterns[] = {Pattern::all_hit, Pattern::all_miss, Pattern::unpredictable};
 std::string_view name(Pattern pattern);
 
-/// MollerTrumboreFloat in three orders: branches.hpp.
+/// The three orders of branches.hpp.
 std::vector<Timed> time_orders(Pattern pattern, int rounds);
 
 // --- square roots ---

@@ -2,7 +2,6 @@
 /// Every ray-triangle test of the book by name: for loops over all of them, and for --triangle-test.
 #pragma once
 
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch02_intersection_tests/lichter.hpp"
 #include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
@@ -13,6 +12,7 @@
 
 namespace space {
 
+// [triangle_tests]
 inline constexpr std::tuple triangle_tests{
     NamedTest<MollerTrumbore>{"moller-trumbore", "Möller & Trumbore 1997, in double (chapter 1)"},
     NamedTest<MollerTrumboreFloat>{"moller-trumbore-float", "the same in float"},
@@ -23,6 +23,7 @@ inline constexpr std::tuple triangle_tests{
     NamedTest<Watertight>{"watertight", "shear made once per ray (Woop, Benthin & Wald 2013)"},
     NamedTest<FilteredExact>{"filtered-exact", "always the decision of exact arithmetic"},
 };
+// [triangle_tests]
 inline constexpr std::size_t triangle_test_count = std::tuple_size_v<decltype(triangle_tests)>;
 
 }  // namespace space
