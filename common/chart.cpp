@@ -232,17 +232,19 @@ class Script {
         }
     }
 
-    /// The names beside the lines' ends, moved apart where they would meet.
+    /// The names in a column beside the lines' ends, moved apart where they would meet.
     void name_lines() {
         struct Name {
             std::size_t series;
-            double x, y, height;  ///< middle of the text
+            double y, height;  ///< middle of the text
         };
         std::vector<Name> names;
+        double column = left_;
         for (std::size_t s = 0; s < points_.size(); ++s) {
             if (points_[s].x.empty()) continue;
-            names.push_back({s, x_at(points_[s].x.back()) + text_gap, y_at(points_[s].y.back()),
-                             line_height * (chart_.series[s].note.empty() ? 1 : 2)});
+            names.push_back(
+                {s, y_at(points_[s].y.back()), line_height * (chart_.series[s].note.empty() ? 1 : 2)});
+            column = std::max(column, x_at(points_[s].x.back()) + text_gap);
         }
         std::sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.y < b.y; });
         for (std::size_t i = 1; i < names.size(); ++i)
@@ -255,8 +257,8 @@ class Script {
         for (const Name& name : names) {
             const Series& series = chart_.series[name.series];
             const double base = name.y + text_size / 3 - (series.note.empty() ? 0 : 0.5 * line_height);
-            label(series.name, name.x, base, "left", text_ink(ink(name.series)));
-            label(series.note, name.x, base + line_height, "left", text_ink(ink(name.series)));
+            label(series.name, column, base, "left", text_ink(ink(name.series)));
+            label(series.note, column, base + line_height, "left", text_ink(ink(name.series)));
         }
     }
 
