@@ -24,19 +24,22 @@ double over_scenes(const std::vector<SceneTimes>& scenes, std::size_t test) {
 Chart triangle_chart(const Measurements& measured) {
     Series leaks{.name = "leaks", .x = {}, .y = {}};
     const Leaks& mesh = measured.leaks.front();
+    int without_leaks = 0;
     for_each_named(triangle_tests, [&](std::size_t test, const auto& named) {
         leaks.x.push_back(over_scenes(measured.triangle_times, test));
-        leaks.y.push_back(on_log_axis(1e6 * static_cast<double>(mesh.leaks[test]) / static_cast<double>(mesh.rays)));
-        // Short where points stand close: Lichter's two tests leak alike, and two others do not leak.
+        // Two tests without leaks stand one above the other, so that their names do not meet.
+        leaks.y.push_back(mesh.leaks[test] > 0 ? 1e6 * static_cast<double>(mesh.leaks[test]) / static_cast<double>(mesh.rays)
+                          : without_leaks++ % 2 == 0 ? none
+                                                     : 3.0 * none);
+        // Lichter's two tests leak alike; only the improved one carries the name.
         leaks.labels.emplace_back(named.name == "lichter-first"      ? "first"
                                   : named.name == "lichter-improved" ? "lichter"
-                                  : named.name == "filtered-exact"   ? "exact"
                                                                      : named.name);
     });
     return {.id = "fig_02_11",
             .title = "Nanoseconds per ray-triangle test against leaks through the edges and vertices of a closed mesh",
             .x_label = "ns per test (median of six inputs)",
-            .y_label = "leaks per million rays; 0.1 stands for none",
+            .y_label = "leaks per million rays; below 1: none",
             .log_x = true,
             .log_y = true,
             .kind = ChartKind::points,
