@@ -156,7 +156,7 @@ struct SlabConservative {
         }
         leave += tiny;
         if (!(enter <= leave)) return std::nullopt;
-        return Interval{enter, leave};
+        return Interval{std::max(ray.tmin, enter - tiny), leave};
     }
     // [slab_conservative]
     static Prepared prepare(const Ray& ray) { return Prepared(ray); }

@@ -201,8 +201,10 @@ std::optional<Hit> FilteredExact::by_expansions(const Ray& ray, const Triangle& 
     const double det = to_double(volumes.det), t = to_double(volumes.t) / det, slack = 0x1p-50 * std::abs(t);
     const auto low = static_cast<float>(t - slack), high = static_cast<float>(t + slack);
     auto nearest = static_cast<float>(t);
-    if (low != high && std::isfinite(low) && std::isfinite(high)) {  // which side of their middle? t middle = ties to even
-        const double middle = 0.5 * (double{low} + double{high});
+    if (low != high) {  // which side of their middle? t middle = ties to even
+        // Infinity begins where the next float would be.
+        const auto place = [](float f) { return std::isinf(f) ? std::copysign(0x1p128, double{f}) : double{f}; };
+        const double middle = 0.5 * (place(low) + place(high));
         const int above = sign(volumes.t - volumes.det * middle) * sign(volumes.det);
         nearest = above < 0 ? low : above > 0 ? high : static_cast<float>(middle);
     }
