@@ -94,7 +94,7 @@ Axis log_axis(double least, double most) {
     // Room at both ends, so that no point sits in a corner.
     const double pad = std::pow(std::max(most / least, 2.0), 0.05);
     Axis axis{true, least / pad, most * pad, {}};
-    for (const std::vector<double>& steps : {std::vector<double>{1}, std::vector<double>{1, 2, 5}}) {
+    for (const std::vector<double>& steps : {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {
         axis.ticks.clear();
         for (int e = static_cast<int>(std::floor(std::log10(axis.low))); e <= std::ceil(std::log10(axis.high)); ++e)
             for (const double step : steps) {
