@@ -32,6 +32,7 @@ struct NoCounts {
     static constexpr void test_triangle() {}
 };
 
+/// What a query did, in numbers that are the same on every machine.
 struct TraversalCounts {
     std::uint64_t nodes_visited = 0;
     std::uint64_t triangles_tested = 0;

@@ -33,7 +33,11 @@ constexpr double text_size = 17, line_height = 21, text_gap = 12;
 /// Mean width of a character, for margins. DejaVu Sans, the widest of the style block's fonts, has about 0.6.
 constexpr double character_width = 0.6 * text_size;
 
-constexpr std::array series_inks{Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange, Ink::sky};
+constexpr std::array series_inks{Ink::blue, Ink::vermillion, Ink::green, Ink::ink, Ink::purple, Ink::orange};
+/// Orange is too pale for text.
+Ink text_ink(Ink series) {
+    return series == Ink::orange ? Ink::ink : series;
+}
 /// gnuplot's filled circle, square, triangle, diamond, pentagon, inverted triangle: colours are not the only
 /// difference.
 constexpr std::array point_types{7, 5, 9, 13, 15, 11};
@@ -90,7 +94,7 @@ Axis log_axis(double least, double most) {
     // Room at both ends, so that no point sits in a corner.
     const double pad = std::pow(std::max(most / least, 2.0), 0.05);
     Axis axis{true, least / pad, most * pad, {}};
-    for (const std::vector<double>& steps : {std::vector<double>{1}, std::vector<double>{1, 2, 5}}) {
+    for (const std::vector<double>& steps : {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {
         axis.ticks.clear();
         for (int e = static_cast<int>(std::floor(std::log10(axis.low))); e <= std::ceil(std::log10(axis.high)); ++e)
             for (const double step : steps) {
@@ -102,12 +106,12 @@ Axis log_axis(double least, double most) {
     return axis;
 }
 
-/// From zero, where no value is negative.
-Axis linear_axis(double least, double most) {
+/// From zero, where no value is negative, to at least `headroom` steps above the largest.
+Axis linear_axis(double least, double most, double headroom = 0.0) {
     const double low = std::min(least, 0.0), high = most > low ? most : low + 1.0;
     const double raw = (high - low) / 5, decade = std::pow(10.0, std::floor(std::log10(raw)));
     const double step = decade * (raw <= decade ? 1 : raw <= 2 * decade ? 2 : raw <= 5 * decade ? 5 : 10);
-    const double first = std::floor(low / step), last = std::ceil(high / step);
+    const double first = std::floor(low / step), last = std::ceil(high / step + headroom);
     Axis axis{false, first * step, last * step, {}};
     for (double k = first; k <= last; ++k) axis.ticks.push_back({k * step, tick_text(k * step, axis.high)});
     return axis;
@@ -146,8 +150,8 @@ class Script {
         if (!(x_least <= x_most)) throw output_error(fmt::format("{}.svg: there is no point to draw", chart.id));
         x_ = chart.log_x ? log_axis(x_least, x_most) : linear_axis(x_least, x_most);
         if (bars()) x_ = {false, -0.5, static_cast<double>(chart.categories.size()) - 0.5, {}};
-        const double headroom = chart.kind == ChartKind::points ? 1.1 : 1.0;  // for the labels above the points
-        y_ = chart.log_y ? log_axis(y_least, y_most) : linear_axis(y_least, headroom * y_most);
+        const double headroom = chart.kind == ChartKind::points ? 0.3 : 0.0;  // a point on the frame looks cut off
+        y_ = chart.log_y ? log_axis(y_least, y_most) : linear_axis(y_least, y_most, headroom);
 
         std::size_t tick_length = 0, name_length = 0;
         for (const Tick& tick : y_.ticks) tick_length = std::max(tick_length, tick.text.size());
@@ -228,21 +232,23 @@ class Script {
         }
     }
 
-    /// The names beside the lines' ends, moved apart where they would meet.
+    /// The names in a column beside the lines' ends, moved apart where they would meet.
     void name_lines() {
         struct Name {
             std::size_t series;
-            double x, y, height;  ///< middle of the text
+            double y, height;  ///< middle of the text
         };
         std::vector<Name> names;
+        double column = left_;
         for (std::size_t s = 0; s < points_.size(); ++s) {
             if (points_[s].x.empty()) continue;
-            names.push_back({s, x_at(points_[s].x.back()) + text_gap, y_at(points_[s].y.back()),
-                             line_height * (chart_.series[s].note.empty() ? 1 : 2)});
+            names.push_back(
+                {s, y_at(points_[s].y.back()), line_height * (chart_.series[s].note.empty() ? 1 : 2)});
+            column = std::max(column, x_at(points_[s].x.back()) + text_gap);
         }
         std::sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.y < b.y; });
         for (std::size_t i = 1; i < names.size(); ++i)
-            names[i].y = std::max(names[i].y, names[i - 1].y + 0.5 * (names[i].height + names[i - 1].height) + 4);
+            names[i].y = std::max(names[i].y, names[i - 1].y + 0.5 * (names[i].height + names[i - 1].height) + 6);
         double lowest = bottom_ - 4;
         for (std::size_t i = names.size(); i-- > 0;) {
             names[i].y = std::min(names[i].y, lowest - 0.5 * names[i].height);
@@ -251,16 +257,23 @@ class Script {
         for (const Name& name : names) {
             const Series& series = chart_.series[name.series];
             const double base = name.y + text_size / 3 - (series.note.empty() ? 0 : 0.5 * line_height);
-            label(series.name, name.x, base, "left", ink(name.series));
-            label(series.note, name.x, base + line_height, "left", ink(name.series));
+            label(series.name, column, base, "left", text_ink(ink(name.series)));
+            label(series.note, column, base + line_height, "left", text_ink(ink(name.series)));
         }
     }
 
+    /// Above bars; beside points, on the side where there is room.
     void label_points() {
         for (std::size_t s = 0; s < points_.size(); ++s)
-            for (std::size_t i = 0; i < points_[s].x.size(); ++i)
-                label(points_[s].labels[i], x_at(points_[s].x[i] + (bars() ? offset(s) : 0.0)),
-                      y_at(points_[s].y[i]) - 10, "center", Ink::ink);
+            for (std::size_t i = 0; i < points_[s].x.size(); ++i) {
+                const double x = points_[s].x[i], y = y_at(points_[s].y[i]);
+                const bool at_right = x_.fraction(x) < 0.6;
+                if (bars())
+                    label(points_[s].labels[i], x_at(x + offset(s)), y - 10, "center", Ink::ink);
+                else
+                    label(points_[s].labels[i], x_at(x) + (at_right ? text_gap : -text_gap), y + text_size / 3,
+                          at_right ? "left" : "right", Ink::ink);
+            }
     }
 
     void key() {

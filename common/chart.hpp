@@ -17,6 +17,7 @@ struct Series {
     std::string note = {};                 ///< a second line under the name, such as "slope 1.02"
 };
 
+/// What stands for a value: a corner of a line, a dot, or a bar.
 enum class ChartKind { lines, points, bars };
 
 /// Text is drawn as it stands, one line each. On a logarithmic axis, values that are not positive are left out; those

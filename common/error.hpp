@@ -7,6 +7,7 @@
 
 namespace space {
 
+/// How a program ended, for scripts.
 enum class ExitCode : int {
     ok = 0,
     wrong_answer = 1,  ///< the program ran, and found a disagreement or a failed check

@@ -14,6 +14,7 @@ namespace space {
 /// PNG, the same bytes too; a chart shows measured times and is never compared.
 enum class FigureKind { drawing, rendering, chart };
 
+/// A figure of the book, and the function that makes it.
 struct Figure {
     std::string_view id;  ///< "fig_01_03"
     FigureKind kind;

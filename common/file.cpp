@@ -26,7 +26,7 @@ std::string fault() { return std::strerror(errno); }
 }  // namespace
 
 std::string read_file(const std::filesystem::path& file) {
-    const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
+    const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // a pipe must not wait
     if (descriptor.fd < 0) throw input_error(fmt::format("{}: {}", file.string(), fault()));
     struct stat status {};
     if (::fstat(descriptor.fd, &status) != 0) throw input_error(fmt::format("{}: {}", file.string(), fault()));

@@ -11,6 +11,7 @@
 
 namespace space {
 
+/// A picture in linear colours, row after row from the top.
 class Image {
   public:
     Image(int width, int height) : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {}

@@ -15,6 +15,7 @@ namespace space {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
+/// Real time, by a clock that is never set back.
 class Stopwatch {
   public:
     /// Time since construction or the last lap.

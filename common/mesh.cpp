@@ -71,7 +71,6 @@ std::vector<Triangle> TriangleMesh::triangles() const {
 void TriangleMesh::append(const TriangleMesh& other) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
-    faces.reserve(faces.size() + other.faces.size());
     for (const auto& [a, b, c] : other.faces) faces.push_back({first + a, first + b, first + c});
 }
 

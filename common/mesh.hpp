@@ -12,6 +12,7 @@
 
 namespace space {
 
+/// Triangles that share vertices, as files hold them.
 struct TriangleMesh {
     std::vector<Point3> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the front

@@ -112,7 +112,7 @@ void check_obj(Source& source) {
             text[i] = ' ';
         }
     }
-    std::int64_t vertices = 0, largest = 0;
+    std::int64_t vertices = 0, faces = 0, largest = 0;
     const char* largest_at = nullptr;
     for (std::string_view rest = source.view(); !rest.empty();) {
         std::string_view line = take_line(rest);
@@ -124,6 +124,7 @@ void check_obj(Source& source) {
         } else if (keyword == "l") {
             text[static_cast<std::size_t>(where - text.data())] = '#';  // the reader stumbles over polylines
         } else if (keyword == "f") {
+            ++faces;
             int corners = 0;
             for (std::string_view word; !(word = take_word(line)).empty() && word.front() != '#'; ++corners) {
                 constexpr std::size_t longest_corner =
@@ -144,11 +145,12 @@ void check_obj(Source& source) {
                 source.fail_at(where, fmt::format("a face needs three corners or more, this one has {}", corners));
         }
     }
+    if (vertices > 0 && faces == 0) source.fail("the file has no faces");
     if (largest > vertices)
         source.fail_at(largest_at, fmt::format("vertex index {}, but the file has {} vertices", largest, vertices));
 }
 
-/// Takes the next word of an OFF header, which may stand on any line, and as a count it must fit into the file.
+/// Takes the next word of an OFF header; comments and line ends may stand between its words.
 std::string_view take_off_word(std::string_view& rest) {
     for (;;) {
         const std::string_view word = take_word(rest, white_space);
@@ -179,6 +181,10 @@ void check_off(Source& source) {
                            fmt::format("{} files are not read, only OFF with three coordinates", quote(whole_kind)));
         source.fail("not an OFF file: it does not begin with OFF");
     }
+    // Normals, colours and texture coordinates are read over at the ends of the lines; told of colours, the reader
+    // would read past the end of a line that has none.
+    std::fill_n(source.content.begin() + (whole_kind.data() - source.content.data()), kind.data() - whole_kind.data(),
+                ' ');
     std::int64_t counts[3];
     constexpr const char* names[3] = {"vertices", "faces", "edges"};
     constexpr std::int64_t fewest_bytes[3] = {6, 6, 1};  // "0 0 0\n", "3 0 0 0": bytes that one takes at least
@@ -575,9 +581,11 @@ TriangleMesh load_mesh(const std::filesystem::path& file) {
     }
     if (!good) {
         stream.clear();
-        const auto reached = std::max<std::streamoff>(stream.tellg(), 0);
+        const std::streamoff position = stream.tellg();
         source.content = std::move(stream).str();
-        source.fail_at(source.content.data() + std::min<std::size_t>(std::size_t(reached), source.content.size()),
+        std::size_t reached = std::min(std::size_t(std::max<std::streamoff>(position, 0)), source.content.size());
+        if (reached > 0 && source.content[reached - 1] == '\n') --reached;  // the line that the reader gave up on
+        source.fail_at(source.content.data() + reached,
                        "the file cannot be read on from here: it is broken or of another kind");
     }
 

@@ -1,5 +1,6 @@
 #include "common/options.hpp"
 
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
@@ -26,12 +27,20 @@ std::string parse_size(const std::string& text, Options& options) {
     return {};
 }
 
+/// CLI11 would take -1 and 10^20 for some other number of 64 bits.
+std::string check_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error == std::errc() && end == text.data() + text.size()) return {};
+    return fmt::format("give a whole number from 0 to 2^64 - 1, not {}", text);
+}
+
 }  // namespace
 
 void add_common_options(CLI::App& app, Options& options) {
     app.add_option("--threads", options.threads, "worker threads; default: as many as the machine has")
         ->check(CLI::Range(1u, max_threads));
-    app.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+    app.add_option("--seed", options.seed, "seed of everything random")->check(check_seed)->capture_default_str();
     app.add_option_function<std::string>(
            "--size",
            [&options](const std::string& text) {

@@ -15,6 +15,7 @@ class App;
 
 namespace space {
 
+/// Their values, as a program gets them.
 struct Options {
     std::string scene = {};             ///< --scene NAME, NAME:SIZE or FILE
     bool small = false;                 ///< --small: counts only, in a second or two; what the tests run
@@ -26,6 +27,7 @@ struct Options {
     std::optional<std::string> figure = {};  ///< --figure ID (or "all"): draw into --out and do nothing else
 };
 
+/// What a program brings to its command line.
 struct ProgramInfo {
     std::string name;   ///< "ch01_naive_ray_tracing"
     std::string about;  ///< first line of --help

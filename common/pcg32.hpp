@@ -8,6 +8,7 @@
 
 namespace space {
 
+/// The same numbers for the same seed, with every compiler and library.
 class Pcg32 {
   public:
     /// Two generators with the same seed and different streams are independent.

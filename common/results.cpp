@@ -13,15 +13,6 @@
 namespace space {
 namespace {
 
-std::string_view name(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::confirmed: return "confirmed";
-        case Verdict::refuted: return "refuted";
-        case Verdict::depends: return "depends";
-    }
-    return "";
-}
-
 std::string processor_name() {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);)
@@ -31,6 +22,15 @@ std::string processor_name() {
 }
 
 }  // namespace
+
+std::string_view name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::confirmed: return "confirmed";
+        case Verdict::refuted: return "refuted";
+        case Verdict::depends: return "depends";
+    }
+    return "";
+}
 
 std::string machine_description() {
 #if defined(__clang__)

@@ -4,13 +4,16 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace space {
 
 /// confirmed, refuted, or depends (on what `measured` says). Always computed from a measurement.
 enum class Verdict { confirmed, refuted, depends };
+std::string_view name(Verdict verdict);
 
+/// What a program measured about one claim of the sources.
 struct ClaimAnswer {
     std::string claim;     ///< id in the ledger, such as "H1"
     Verdict verdict;

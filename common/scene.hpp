@@ -22,6 +22,7 @@ struct PointLight {
     Color intensity{1.0f};
 };
 
+/// All that a renderer needs to draw one picture.
 struct Scene {
     std::string name;
     TriangleMesh mesh;
@@ -41,10 +42,11 @@ struct SceneRecipe {
     std::uint32_t default_size = 0;  ///< 0: the scene has no size
     std::uint32_t small_size = 0;    ///< for --small and tests
     std::uint32_t max_size = 0;
+    bool from_file = false;  ///< it comes from a file that this machine may not have
 };
 std::span<const SceneRecipe> scene_recipes();
 
-/// Makes the scene that `spec` names: "NAME", "NAME:SIZE" or the path of a mesh file (which is framed by the camera
+/// Makes the scene that `spec` names: "NAME", "NAME:SIZE", "room:FILE" (that mesh on the room's table) or the path of a mesh file (which is framed by the camera
 /// and lit). The same spec and seed give the same scene, bit for bit, with every compiler.
 /// @throws Error (usage) for an unknown name or an absurd size, (bad_input) for a broken file
 Scene make_scene(std::string_view spec, std::uint64_t seed = 1, bool small = false);

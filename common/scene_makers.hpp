@@ -28,6 +28,4 @@ void make_slivers(Scene& scene, std::uint32_t triangles, std::uint64_t seed);
 void make_boxes(Scene& scene, std::uint32_t boxes, std::uint64_t seed);
 void make_building(Scene& scene, std::uint32_t storeys, std::uint64_t seed);
 
-void make_bunny(Scene& scene, std::uint32_t, std::uint64_t);
-
 }  // namespace space

@@ -249,6 +249,10 @@ void add_light(Scene& scene, const Double3& position, const Double3& lit, const 
     scene.lights.push_back({Point3(position), brightness * static_cast<float>(pi * glm::dot(way, way))});
 }
 
+void add_eye_light(Scene& scene, const Color& brightness) {
+    add_light(scene, Double3(scene.camera.eye), Double3(scene.camera.target), brightness);
+}
+
 Color srgb(std::uint32_t rgb) {
     Color color;
     for (int channel = 0; channel < 3; ++channel) {

@@ -35,7 +35,7 @@ TriangleMesh tube(std::span<const TubePoint> path, std::uint32_t sides, bool cap
 TriangleMesh tube(const TubePoint& a, const TubePoint& b, std::uint32_t sides, bool capped = true);
 
 /// A teapot of our own: body and lid turned, handle and spout bent tubes; about 0.3 wide, standing on y = 0. With the
-/// detail n: 32 n^2 + 20 n triangles (see the source).
+/// detail n: 84 n^2 + 52 n triangles.
 TriangleMesh teapot(std::uint32_t detail);
 
 /// Smooth curve through the points (Catmull & Rom 1974), `steps` pieces between neighbours.
@@ -54,6 +54,9 @@ void add(Scene& scene, const TriangleMesh& mesh, const Color& color);
 
 /// A light at `position` that makes a white surface at `lit`, facing it, as bright as `brightness`.
 void add_light(Scene& scene, const Double3& position, const Double3& lit, const Color& brightness);
+
+/// A light at the camera's eye, for its target: it throws no shadow that is seen, and leaves no other one black.
+void add_eye_light(Scene& scene, const Color& brightness);
 
 /// The linear colour of an sRGB triple such as 0xC8553D.
 Color srgb(std::uint32_t rgb);

@@ -44,7 +44,7 @@ void add_walls(Scene& scene) {
 
 /// A frame on the back wall with hills under a sun in it.
 void add_picture(Scene& scene) {
-    const double x = -0.62, y = 1.28, w = 1.05, h = 0.78, z = back + 0.01, rim = 0.045;
+    const double x = -0.62, y = 1.20, w = 1.05, h = 0.78, z = back + 0.01, rim = 0.045;
     add(scene, box({x - rim, y - rim, back}, {x + w + rim, y + h + rim, z + 0.015}), srgb(0x2E2A28));
     const double paper = z + 0.017;
     add(scene, parallelogram({x, y, paper}, {w, 0, 0}, {0, h, 0}), srgb(0xF3D9A4));
@@ -68,8 +68,8 @@ void add_picture(Scene& scene) {
 
 void add_table(Scene& scene) {
     const Color wood = srgb(0x8A5A3A);
-    const glm::dvec2 top[] = {{0.0, 0.695},  {0.78, 0.695},        {0.80, 0.705},
-                              {0.80, 0.730}, {0.79, table_height}, {0.0, table_height}};
+    const glm::dvec2 top[] = {{0.0, 0.695},  {0.68, 0.695},        {0.70, 0.705},
+                              {0.70, 0.730}, {0.69, table_height}, {0.0, table_height}};
     add(scene, lathe(top, 64), wood);
     const glm::dvec2 turned[] = {{0.050, 0.12}, {0.060, 0.20}, {0.035, 0.30},
                                  {0.060, 0.42}, {0.040, 0.56}, {0.090, 0.695}};
@@ -110,15 +110,16 @@ void add_room(Scene& scene) {
     add(scene, lathe(rug, 64), srgb(0xE9DCC3));
     add(scene, lathe(rug_middle, 64), srgb(0x2F5D73));
     add_table(scene);
-    add_stool(scene, {-1.18, 0.014, 0.42}, srgb(0xD9A441));
-    add_stool(scene, {1.22, 0.0, -0.70}, srgb(0xB5483A));
+    add_stool(scene, {-1.02, 0.014, 0.30}, srgb(0xD9A441));
+    add_stool(scene, {1.10, 0.014, -0.55}, srgb(0xB5483A));
     add_lamp(scene);
 
-    scene.camera = {.eye = {0.75f, 1.52f, 2.45f}, .target = {-0.05f, 0.86f, 0.0f}, .field_of_view = 46.0f};
+    scene.camera = {.eye = {0.66f, 1.40f, 2.30f}, .target = {-0.03f, 0.94f, 0.0f}, .field_of_view = 39.0f};
     scene.background = srgb(0xBFD4E0);
-    add_light(scene, {0.0, 1.90, 0.0}, {0.0, table_height, 0.0}, Color{0.85f, 0.74f, 0.56f});  // below the lamp's shade
-    add_light(scene, {1.6, 2.35, 2.3}, {0.0, 0.8, 0.0}, Color{0.34f, 0.35f, 0.38f});  // a window behind the camera
-    add_light(scene, {-1.2, 2.3, 2.2}, {0.0, 0.8, 0.0}, Color{0.20f, 0.20f, 0.21f});
+    const Double3 middle{0.0, table_height, 0.0};
+    add_light(scene, {0.0, 1.88, 0.0}, middle, Color{0.62f, 0.53f, 0.38f});  // below the lamp's shade
+    add_light(scene, {1.9, 2.35, 2.1}, middle, Color{0.72f, 0.70f, 0.68f});  // daylight from behind, right
+    add_eye_light(scene, Color{0.34f, 0.34f, 0.36f});
 }
 
 }  // namespace
@@ -126,15 +127,15 @@ void add_room(Scene& scene) {
 void make_room(Scene& scene, std::uint32_t detail, std::uint64_t) {
     add_room(scene);
     const Double3 place{-0.06, table_height, -0.02};
-    add(scene, transformed(teapot(detail), 1.35 * rotation({0, 1, 0}, -22), place), srgb(0x4F8F86));
+    add(scene, transformed(teapot(detail), 1.9 * rotation({0, 1, 0}, -28), place), srgb(0x4F8F86));
     const glm::dvec2 cup[] = {{0.030, 0.0},   {0.046, 0.035}, {0.050, 0.080},
                               {0.047, 0.080}, {0.042, 0.035}, {0.0, 0.010}};
-    add(scene, moved(lathe(cup, 32), {0.40, table_height, 0.24}), srgb(0xE8DFD0));
-    add(scene, moved(lathe(cup, 32), {-0.38, table_height, 0.36}), srgb(0xE8DFD0));
+    add(scene, moved(lathe(cup, 32), {0.42, table_height, 0.20}), srgb(0xE8DFD0));
+    add(scene, moved(lathe(cup, 32), {-0.36, table_height, 0.33}), srgb(0xE8DFD0));
     const std::uint32_t f = std::min(detail, 8u);
-    add(scene, ball({0.30, table_height + 0.045, -0.22}, 0.045, f), srgb(0xE08A2C));
-    add(scene, ball({0.39, table_height + 0.042, -0.17}, 0.042, f), srgb(0xD9772B));
-    add(scene, ball({0.36, table_height + 0.040, -0.28}, 0.040, f), srgb(0xC8442F));
+    add(scene, ball({0.38, table_height + 0.045, -0.20}, 0.045, f), srgb(0xE08A2C));
+    add(scene, ball({0.47, table_height + 0.042, -0.15}, 0.042, f), srgb(0xD9772B));
+    add(scene, ball({0.44, table_height + 0.040, -0.26}, 0.040, f), srgb(0xC8442F));
 }
 
 void make_room_with(Scene& scene, const TriangleMesh& on_table) {

@@ -54,7 +54,7 @@ std::string style_block() {
         ".book-figure .italic{{font-family:\"Latin Modern Roman\",\"STIX Two Text\",\"Times New Roman\",Times,"
         "\"DejaVu Serif\",serif;font-style:italic}}\n"
         ".book-figure .halo{{paint-order:stroke;stroke-width:5;stroke-linejoin:round}}\n"
-        ".book-figure image{{image-rendering:pixelated}}\n"
+        ".book-figure .pixels{{image-rendering:pixelated}}\n"
         "{4}</style>\n",
         light, dark, fmt::format(fmt::runtime(page), palette[1].light),
         fmt::format(fmt::runtime(page), palette[1].dark), rules);
@@ -251,11 +251,12 @@ void Svg::end_group() {
 }
 
 void Svg::picture(Point2 corner, Vector2 size, const Image& image, std::string_view id) {
+    const bool pixels_show = size.x >= 2.0f * static_cast<float>(image.width());
     element("image",
-            fmt::format(" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
-                        "image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,{}\"",
-                        svg_number(corner.x), svg_number(corner.y), svg_number(size.x), svg_number(size.y),
-                        base64(png_bytes(image))),
+            fmt::format("{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+                        "href=\"data:image/png;base64,{}\"",
+                        pixels_show ? " class=\"pixels\" image-rendering=\"optimizeSpeed\"" : "", svg_number(corner.x),
+                        svg_number(corner.y), svg_number(size.x), svg_number(size.y), base64(png_bytes(image))),
             id);
 }
 

@@ -27,6 +27,7 @@ enum class Ink { ink, paper, quiet, faint, blue, orange, green, vermillion, sky,
 /// Lines of every drawing and chart, in drawing units.
 inline constexpr double line_weight = 2.0;
 
+/// Line and filling of a shape.
 struct Style {
     std::optional<Ink> stroke = Ink::ink;  ///< empty: no line
     std::optional<Ink> fill = {};          ///< empty: not filled
@@ -35,8 +36,10 @@ struct Style {
     bool arrow = false;  ///< a head at the end of a line or polyline
 };
 
+/// Which end of a text stands at its point.
 enum class Anchor { start, middle, end };
 
+/// Size, colour and place of a text.
 struct TextStyle {
     Anchor anchor = Anchor::middle;
     Ink ink = Ink::ink;
@@ -63,7 +66,7 @@ class Svg {
     /// Groups what follows up to end_group under an id of its own, for scripts that show and hide it.
     void begin_group(std::string_view id);
     void end_group();
-    /// Pixels as an embedded PNG, scaled without smoothing.
+    /// Pixels as an embedded PNG; drawn twice as large or larger, as squares with sharp sides.
     void picture(Point2 corner, Vector2 size, const Image& image, std::string_view id = {});
 
     std::string document() const;

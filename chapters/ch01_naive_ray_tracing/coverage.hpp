@@ -36,6 +36,7 @@ inline double distance_to_outline(const glm::dvec2& point, const std::vector<glm
     return nearest;
 }
 
+/// Where the two renderers see the same triangle, in numbers.
 struct Coverage {
     std::uint64_t pixels = 0;
     std::uint64_t covered = 0;   ///< by any triangle, says the ray tracer

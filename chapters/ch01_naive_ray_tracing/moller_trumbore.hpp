@@ -16,26 +16,28 @@ concept TriangleTest = requires(const Ray& ray, const Triangle& triangle) {
     { T::intersect(ray, triangle) } -> std::same_as<std::optional<Hit>>;
 };
 
-/// Solves origin + t direction = a + u (b - a) + v (c - a) by Cramer's rule. The coordinates are floats and the
-/// arithmetic is double: in float the test misses rays near the edges (chapter 2 counts them). The result
-/// is rounded to float once, and t is compared with the interval after rounding, so that the nearest
+/// Solves origin + t direction = a + u (b - a) + v (c - a) by Cramer's rule, in `Real` arithmetic. The coordinates are
+/// floats; the result is rounded to float once, and t is compared with the interval after rounding, so that the nearest
 /// hit does not depend on the order in which triangles are tested.
-struct MollerTrumbore {
+template <std::floating_point Real>
+struct BasicMollerTrumbore {
+    using Real3 = glm::vec<3, Real>;
+
     // [moller_trumbore]
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
-        const Double3 direction{ray.direction};
-        const Double3 a{triangle.a}, ab = Double3(triangle.b) - a, ac = Double3(triangle.c) - a;
-        const Double3 p = glm::cross(direction, ac);
-        const double determinant = glm::dot(p, ab);
-        if (determinant == 0.0) return std::nullopt;  // parallel to the triangle, or a triangle without area
+        const Real3 direction{ray.direction};
+        const Real3 a{triangle.a}, ab = Real3(triangle.b) - a, ac = Real3(triangle.c) - a;
+        const Real3 p = glm::cross(direction, ac);
+        const Real determinant = glm::dot(p, ab);
+        if (determinant == 0) return std::nullopt;  // parallel to the triangle, or a triangle without area
 
-        const Double3 s = Double3(ray.origin) - a;
-        const double u = glm::dot(p, s) / determinant;
-        if (!(u >= 0.0 && u <= 1.0)) return std::nullopt;
-        const Double3 q = glm::cross(s, ab);
-        const double v = glm::dot(q, direction) / determinant;
-        if (!(v >= 0.0 && u + v <= 1.0)) return std::nullopt;
-        if (glm::cross(ab, ac) == Double3(0.0)) return std::nullopt;  // no area, but a determinant of rounding errors
+        const Real3 s = Real3(ray.origin) - a;
+        const Real u = glm::dot(p, s) / determinant;
+        if (!(u >= 0 && u <= 1)) return std::nullopt;
+        const Real3 q = glm::cross(s, ab);
+        const Real v = glm::dot(q, direction) / determinant;
+        if (!(v >= 0 && u + v <= 1)) return std::nullopt;
+        if (glm::cross(ab, ac) == Real3(0)) return std::nullopt;  // no area, but a determinant of rounding errors
 
         const auto t = static_cast<float>(glm::dot(q, ac) / determinant);
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;  // also where t is not a number
@@ -43,5 +45,8 @@ struct MollerTrumbore {
     }
     // [moller_trumbore]
 };
+
+/// The book's reference test. In float the test misses rays near the edges (figure 1.8; chapter 2 has more).
+using MollerTrumbore = BasicMollerTrumbore<double>;
 
 }  // namespace space

@@ -11,6 +11,7 @@
 
 namespace space {
 
+/// The plain list of triangles as an accelerator, with any ray-triangle test.
 template <TriangleTest Test = MollerTrumbore>
 class Naive {
   public:

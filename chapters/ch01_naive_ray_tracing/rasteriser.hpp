@@ -59,6 +59,7 @@ inline double coverage_distance(const Camera& camera, int width, int height) {
 }
 // [coverage_distance]
 
+/// Triangle after triangle into a z-buffer: one picture, drawn by any number of calls.
 class Rasteriser {
   public:
     Rasteriser(const Camera& camera, int width, int height)
@@ -71,9 +72,10 @@ class Rasteriser {
     // [draw]
     /// Draws one triangle; the order of the triangles does not matter.
     void draw(const Triangle& triangle, std::uint32_t index) {
+        if (normal(triangle) == Double3(0.0)) return;  // a triangle without area is never hit
         const Double3 a = to_camera(triangle.a), b = to_camera(triangle.b), c = to_camera(triangle.c);
         const Plane plane(a, b, c);
-        if (plane.volume == 0.0) return;  // no area, or the eye lies in its plane
+        if (plane.volume == 0.0) return;  // the eye lies in its plane
 
         const Polygon polygon = clip({{a, b, c}, 3});
         std::array<Subpixel, Polygon::max_size> corners;

@@ -14,12 +14,14 @@
 
 namespace space {
 
+/// What the caller chooses about a picture.
 struct RenderSettings {
     int width = 640, height = 480;
     int samples = 1;       ///< rays per pixel and axis: samples x samples on a regular grid, 1: the pixel's centre
     unsigned threads = 1;  ///< the picture has the same bytes for any number
 };
 
+/// The work of one picture; the same for any number of threads.
 struct RenderCounts {
     std::uint64_t camera_rays = 0;
     std::uint64_t hits = 0;          ///< camera rays that hit something
@@ -38,6 +40,7 @@ struct RenderCounts {
     bool operator==(const RenderCounts&) const = default;
 };
 
+/// A picture, and what it took to make it.
 struct Rendering {
     Image image;
     RenderCounts counts;

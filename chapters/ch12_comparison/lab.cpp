@@ -3,20 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <CLI/CLI.hpp>
-#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
-#include <thread>
 #include <utility>
 
+#include "chapters/ch12_comparison/lab_options.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/measure.hpp"
-#include "common/options.hpp"
 #include "common/pcg32.hpp"
 #include "common/report.hpp"
 #include "common/results.hpp"
@@ -25,112 +21,7 @@
 namespace space {
 namespace {
 
-constexpr unsigned max_threads = 1024;
-constexpr int max_repeat = 10'000;
 constexpr int json_version = 1;  // of the layout of --json
-
-struct LabOptions {
-    Options common{.width = 160, .height = 120};  // small enough for naive tracing of a bunny
-    std::filesystem::path mesh;
-    std::filesystem::path rays;
-    std::optional<std::string> camera;
-    std::size_t diffuse = 0;
-    std::string structure = "all";
-    std::string triangle_test;  // empty: each structure's default
-    Query query = Query::closest;
-    unsigned build_threads = 0;
-    int repeat = 3;
-    bool check = false;
-    std::filesystem::path hits, json;
-};
-
-constexpr std::string_view query_name(Query query) {
-    return query == Query::any ? "any" : "closest";
-}
-
-constexpr const char* formats = R"(
-Files
-  --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is origin + t direction
-           with t in [tmin, tmax]; the direction need not have length 1. A ray with a NaN, a direction of zero
-           or tmin > tmax is a miss, and the number of such rays is printed. A file that does not hold whole
-           records, or none, is an error.
-  --hits   one record a ray, little-endian: float32 t u v, uint32 triangle (from 0, in the order of the mesh
-           file). t is in units of the direction; the point is (1 - u - v) a + u b + v c. A miss is t = infinity,
-           u = v = 0, triangle 0xFFFFFFFF. With --query any a hit has no triangle and no place: t = u = v = 0,
-           triangle 0xFFFFFFFE. Needs exactly one structure.
-  --json   the table as JSON: version, machine, mesh, query, structures; null where a figure has no meaning.
-Exit codes: 0, 1 where --check found a disagreement, 2 usage, 3 bad input, 4 cannot write.
-Nothing is written before all is measured, and a file that cannot be written whole is not there.)";
-
-LabOptions parse(int argc, char** argv) {
-    LabOptions options;
-    std::string query = "closest";
-    CLI::App app("Any structure of the book on your own mesh and rays.", "lab");
-    app.footer(formats);
-    add_common_options(app, options.common);
-    auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF");
-    app.add_option("--scene", options.common.scene, "a scene by name (NAME or NAME:SIZE)")->excludes(mesh);
-    auto* rays =
-        app.add_option("--rays", options.rays, "trace the rays of this file; default: through the camera's pixels");
-    auto* camera = app.add_option("--camera", options.camera,
-                                  "ex,ey,ez,tx,ty,tz,fov: eye, target, vertical field of view "
-                                  "in degrees; default: the scene's own");
-    auto* diffuse = app.add_option("--diffuse", options.diffuse,
-                                   "trace N rays that leave the camera rays' hits, cosine-distributed (by --seed)");
-    diffuse->check(CLI::Range(std::size_t{1}, max_rays));
-    rays->excludes(camera)->excludes(diffuse)->excludes(app.get_option("--size"));
-    app.add_option("--structure", options.structure, "NAME[,NAME...], 'all' or 'list'")->capture_default_str();
-    app.add_option("--triangle-test", options.triangle_test, "NAME or 'list'; default: the first of each structure");
-    app.add_option("--query", query, "closest: the nearest hit; any: whether there is one")
-        ->check(CLI::IsMember({"closest", "any"}))
-        ->capture_default_str();
-    app.add_option("--build-threads", options.build_threads,
-                   "threads of the builders that use several; default: --threads")
-        ->check(CLI::Range(1u, max_threads));
-    app.add_option("--repeat", options.repeat, "timed runs of each build and trace, in turn; their medians count")
-        ->check(CLI::Range(1, max_repeat))
-        ->capture_default_str();
-    app.add_option("--hits", options.hits, "write the answers to this file");
-    app.add_option("--json", options.json, "write the measurements to this file");
-    app.add_flag("--check", options.check, "compare the answers with naive tracing");
-    parse_command_line(app, argc, argv);
-
-    options.query = query == "any" ? Query::any : Query::closest;
-    if (options.common.threads == 0) options.common.threads = std::max(1u, std::thread::hardware_concurrency());
-    if (options.build_threads == 0) options.build_threads = options.common.threads;
-    return options;
-}
-
-/// "a,b,c" -> "a", "b", "c"; empty entries stay.
-std::vector<std::string_view> split(std::string_view text) {
-    std::vector<std::string_view> parts;
-    for (std::size_t comma; (comma = text.find(',')) != text.npos; text.remove_prefix(comma + 1))
-        parts.push_back(text.substr(0, comma));
-    parts.push_back(text);
-    return parts;
-}
-
-Camera parse_camera(const std::string& text) {
-    const auto fault = [&](std::string_view what) { return usage_error(fmt::format("--camera {}: {}", text, what)); };
-    std::vector<float> numbers;
-    for (const std::string_view part : split(text)) {
-        float number = 0.0f;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(number))
-            throw fault(fmt::format("'{}' is not a finite number", part));
-        numbers.push_back(number);
-    }
-    if (numbers.size() != 7) throw fault("give seven numbers ex,ey,ez,tx,ty,tz,fov");
-    Camera camera{.eye = {numbers[0], numbers[1], numbers[2]},
-                  .target = {numbers[3], numbers[4], numbers[5]},
-                  .field_of_view = numbers[6]};
-    if (camera.eye == camera.target) throw fault("eye and target are the same point");
-    if (!(camera.field_of_view > 0.0f && camera.field_of_view < 180.0f))
-        throw fault("the field of view must lie between 0 and 180 degrees");
-    if (camera.eye.x == camera.target.x && camera.eye.z == camera.target.z)
-        camera.up = {0.0f, 0.0f, -1.0f};  // looking straight up or down
-    return camera;
-}
 
 std::string camera_text(const Camera& camera) {
     const auto& [eye, target, up, fov] = camera;
@@ -162,7 +53,7 @@ Choice choose(const Structure& structure, const std::string& triangle_test) {
 
 std::vector<Choice> choose(std::span<const Structure> structures, const LabOptions& options) {
     std::vector<Choice> chosen;
-    for (const std::string_view name : split(options.structure)) {
+    for (const std::string& name : options.structures) {
         const std::size_t before = chosen.size();
         for (const Structure& structure : structures)
             if (name == "all" || name == structure.name) chosen.push_back(choose(structure, options.triangle_test));
@@ -188,31 +79,30 @@ int list_triangle_tests(std::span<const Structure> structures) {
     return static_cast<int>(ExitCode::ok);
 }
 
-std::vector<Ray> make_rays(const LabOptions& options, const Scene& scene, std::span<const Triangle> triangles,
-                           const Choice& tracer) {
-    if (!options.rays.empty()) {
-        fmt::print("rays    {}", options.rays.string());
-        return read_rays(options.rays);
-    }
-    const Camera camera = options.camera ? parse_camera(*options.camera) : scene.camera;
-    const auto& [width, height] = std::pair(options.common.width, options.common.height);
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (pixels > max_rays) throw usage_error(fmt::format("--size {}x{}: more than {} rays", width, height, max_rays));
-    std::vector<Ray> rays = camera_rays(camera, width, height);
-    const std::string source = fmt::format("--camera {} --size {}x{}", camera_text(camera), width, height);
-    if (options.diffuse) {
-        std::vector<HitRecord> hits(rays.size());
-        Progress progress("camera rays", rays.size());
-        tracer.variant->build(triangles, options.build_threads)
-            .trace({.rays = rays, .hits = hits, .threads = options.common.threads, .progress = &progress});
-        rays = diffuse_rays(triangles, rays, hits, options.diffuse, options.common.seed);
-        if (rays.empty())
-            throw usage_error("--diffuse: no camera ray hits the mesh, so there is nowhere to start from");
-        fmt::print("rays    --diffuse {} --seed {} from {}", options.diffuse, options.common.seed, source);
-    } else {
-        fmt::print("rays    {}", source);
-    }
-    return rays;
+struct RaySet {
+    std::vector<Ray> rays;
+    std::string source;  ///< the options that give them again
+};
+
+RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const Triangle> triangles,
+                 const Choice& tracer) {
+    if (!options.rays.empty()) return {read_rays(options.rays), "--rays " + options.rays.string()};
+    const Camera camera = options.camera.value_or(scene.camera);
+    const int width = options.common.width, height = options.common.height;
+    if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > max_rays)
+        throw usage_error(fmt::format("--size {}x{}: more than {} rays", width, height, max_rays));
+    RaySet set{camera_rays(camera, width, height),
+               fmt::format("--camera {} --size {}x{}", camera_text(camera), width, height)};
+    if (options.diffuse == 0) return set;
+
+    std::vector<HitRecord> hits(set.rays.size());
+    Progress progress("camera rays", set.rays.size());
+    tracer.variant->build(triangles, options.build_threads)
+        .trace({.rays = set.rays, .hits = hits, .threads = options.common.threads, .progress = &progress});
+    set.rays = diffuse_rays(triangles, set.rays, hits, options.diffuse, options.common.seed);
+    if (set.rays.empty()) throw usage_error("--diffuse: no camera ray hits the mesh, so there is nowhere to start");
+    set.source += fmt::format(" --diffuse {} --seed {}", options.diffuse, options.common.seed);
+    return set;
 }
 
 struct Measurement {
@@ -289,7 +179,8 @@ void print_measurements(std::span<const Measurement> measurements, const LabOpti
                    with_commas(m.shape.references), with_commas(m.shape.bytes),
                    m.shape.sah_cost ? fmt::format("{:.2f}", *m.shape.sah_cost) : "-"});
     }
-    fmt::print("query   {}; times: medians of {}, threads: {}\n\n", query_name(options.query), options.repeat,
+    fmt::print("query   {}{}; times: medians of {}, threads: {}\n\n", query_name(options.query),
+               options.triangle_test.empty() ? "" : " by " + options.triangle_test, options.repeat,
                options.common.threads);
     work.print();
     fmt::print("\n");
@@ -392,8 +283,8 @@ std::vector<std::string> disagreements(const Answers& trusted, const Answers& ot
 }
 
 int run_lab(std::span<const Structure> structures, int argc, char** argv) {
-    const LabOptions options = parse(argc, argv);
-    if (options.structure == "list") return list_structures(structures);
+    const LabOptions options = parse_lab_options(argc, argv);
+    if (options.structures.front() == "list") return list_structures(structures);
     if (options.triangle_test == "list") return list_triangle_tests(structures);
     const std::vector<Choice> chosen = choose(structures, options);
     if (!options.hits.empty() && chosen.size() != 1) throw usage_error("--hits needs exactly one structure");
@@ -404,18 +295,17 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     fmt::print("mesh    {}: {} vertices, {} triangles, {} degenerate\n", scene.name,
                with_commas(scene.mesh.vertices.size()), with_commas(triangles.size()), with_commas(degenerate));
 
-    const std::vector<Ray> rays =
-        make_rays(options, scene, triangles, choose(structures.back(), options.triangle_test));
+    const auto [rays, source] = make_rays(options, scene, triangles, choose(structures.back(), options.triangle_test));
     const auto invalid = std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !is_valid(ray); });
-    fmt::print(": {} rays", with_commas(rays.size()));
+    fmt::print("rays    {}: {} rays", source, with_commas(rays.size()));
     if (invalid) fmt::print(", {} of them not valid: misses", with_commas(static_cast<std::uint64_t>(invalid)));
     fmt::print("\n");
 
     const std::vector<Measurement> measurements = measure(chosen, triangles, rays, options);
     print_measurements(measurements, options);
-    const std::size_t wrong =
-        options.check ? check(choose(structures.front(), options.triangle_test), triangles, rays, measurements, options)
-                      : 0;
+    std::size_t wrong = 0;
+    if (options.check)
+        wrong = check(choose(structures.front(), options.triangle_test), triangles, rays, measurements, options);
 
     if (!options.hits.empty()) write_file(options.hits, hits_bytes(measurements.front().hits));
     if (!options.json.empty()) write_file(options.json, json_text(options, scene, degenerate, measurements));

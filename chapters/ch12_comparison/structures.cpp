@@ -1,31 +1,20 @@
 /// @file
-/// What the lab offers. A new chapter adds one line to one of the two lists.
+/// What the lab offers: every structure with every triangle test of chapter 2. A new chapter adds one line to the list.
 #include "chapters/ch12_comparison/structures.hpp"
 
 #include <tuple>
 
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 
 namespace space {
 namespace {
-
-template <TriangleTest T>
-struct NamedTest {
-    using Test = T;
-    std::string_view name, about;
-};
-
-constexpr std::tuple triangle_tests{
-    NamedTest<MollerTrumbore>{"moller-trumbore", "Möller & Trumbore 1997, in double"},
-};
 
 /// A structure with every triangle test.
 template <template <TriangleTest> class A>
 Structure offer(std::string_view name, std::string_view about) {
     const auto variant = [](const auto& test) {
-        using Test = typename std::remove_cvref_t<decltype(test)>::Test;
-        return StructureVariant{test.name, test.about, build_structure<A<Test>>};
+        return StructureVariant{test.name, test.about, build_structure<A<TestOf<decltype(test)>>>};
     };
     return {name, about,
             std::apply([&](const auto&... tests) { return std::vector{variant(tests)...}; }, triangle_tests)};
@@ -33,11 +22,13 @@ Structure offer(std::string_view name, std::string_view about) {
 
 }  // namespace
 
+// [structures]
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all{
         offer<Naive>("naive", "no structure: every ray is tested against every triangle (chapter 1)"),
     };
     return all;
 }
+// [structures]
 
 }  // namespace space

@@ -18,6 +18,7 @@
 
 namespace space {
 
+/// The two questions of the concept Accelerator.
 enum class Query { closest, any };
 
 /// Rays to trace and where the answers go: hits[i] is that of rays[i].
@@ -43,6 +44,7 @@ struct StructureVariant {
     BuiltStructure (*build)(std::span<const Triangle> triangles, unsigned threads);
 };
 
+/// An entry of the lab: a structure of the book, in the variants that can be asked for.
 struct Structure {
     std::string_view name, about;
     std::vector<StructureVariant> variants;  ///< the first is the default
@@ -51,6 +53,7 @@ struct Structure {
 /// Every structure of the book, in its order; the first is naive tracing, which --check trusts.
 const std::vector<Structure>& structures();
 
+// [batch]
 /// Answers the query for each ray of the batch; the answers do not depend on the number of threads.
 template <class Counts, Accelerator A>
 Counts trace(const A& accelerator, const Batch& batch) {
@@ -75,6 +78,7 @@ Counts trace(const A& accelerator, const Batch& batch) {
     });
     return total;
 }
+// [batch]
 
 /// Builds an A with its default Config; `threads` matters to a Config that has a field of that name.
 template <Accelerator A>

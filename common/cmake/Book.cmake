@@ -11,9 +11,10 @@ target_compile_options(book_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -W
                                             -ffp-contract=off)
 target_include_directories(book_flags INTERFACE ${PROJECT_SOURCE_DIR})
 if(BOOK_SANITIZE)
-    # Tests may ask for BOOK_SANITIZED to take smaller sizes: sanitized code is some ten times slower.
+    # Tests may ask for BOOK_SANITIZED to take smaller sizes: sanitized code is some ten times slower. GCC 12 then sees
+    # uninitialised values in std::regex and std::function where there are none.
     target_compile_options(book_flags INTERFACE -fsanitize=${BOOK_SANITIZE} -fno-sanitize-recover=all
-                                                -fno-omit-frame-pointer)
+                                                -fno-omit-frame-pointer -Wno-maybe-uninitialized)
     target_compile_definitions(book_flags INTERFACE BOOK_SANITIZED=1)
     target_link_options(book_flags INTERFACE -fsanitize=${BOOK_SANITIZE})
 endif()
@@ -41,6 +42,14 @@ function(book_print_summary)
     endif()
 endfunction()
 
+# All chapters' programs and nothing else: what a reader needs, whatever state the exercises are in.
+add_custom_target(programs)
+add_custom_target(benchmarks)
+find_package(benchmark QUIET)
+if(NOT benchmark_FOUND)
+    book_left_out("benchmarks" "Google Benchmark is not installed (package libbenchmark-dev)")
+endif()
+
 # "ch05_lazy_kd_trees" -> "ch05"
 function(book_short_name chapter result)
     string(REGEX MATCH "^ch[0-9][0-9]" short ${chapter})
@@ -49,12 +58,14 @@ endfunction()
 
 # add_chapter(ch05_lazy_kd_trees [BUILDS_ON ch04_kd_trees ...])
 # Builds the chapter's *.cpp (main.cpp, figures.cpp) into the program <name>, and tests that --small prints
-# expected_small.txt. The chapter's own CMakeLists.txt holds its exercises and figures.
+# expected_small.txt; its benchmarks.cpp becomes the program chNN_benchmarks. The chapter's own CMakeLists.txt holds its
+# exercises and figures.
 function(add_chapter name)
     cmake_parse_arguments(ARG "" "" "BUILDS_ON" ${ARGN})
     set(dir ${PROJECT_SOURCE_DIR}/chapters/${name})
     book_short_name(${name} short)
     file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)
+    list(REMOVE_ITEM sources ${dir}/benchmarks.cpp)
     set_property(GLOBAL APPEND PROPERTY BOOK_CHAPTERS ${name})
     set_property(GLOBAL PROPERTY BOOK_${name}_BUILDS_ON ${ARG_BUILDS_ON})
     if(NOT sources)
@@ -64,9 +75,15 @@ function(add_chapter name)
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE book_common book_flags)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-    set_property(GLOBAL APPEND PROPERTY BOOK_PROGRAMS ${name})
+    add_dependencies(programs ${name})
     book_built("chapter ${name}")
 
+    if(EXISTS ${dir}/benchmarks.cpp AND benchmark_FOUND)
+        add_executable(${short}_benchmarks EXCLUDE_FROM_ALL ${dir}/benchmarks.cpp)
+        target_link_libraries(${short}_benchmarks PRIVATE book_common book_flags benchmark::benchmark_main)
+        set_target_properties(${short}_benchmarks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+        add_dependencies(benchmarks ${short}_benchmarks)
+    endif()
     if(EXISTS ${dir}/expected_small.txt)
         add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}>
                  -D EXPECTED=${dir}/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${name}
@@ -78,19 +95,23 @@ function(add_chapter name)
     endif()
 endfunction()
 
-# add_figure(ch01_naive_ray_tracing fig_01_03 drawing|rendering|chart "caption")
+# add_figure(ch01_naive_ray_tracing fig_01_03 drawing|rendering|chart "caption" [SLOW])
 # Names a figure that the chapter's program makes with --figure. Drawings and renderings have the same bytes
-# everywhere: a test makes them again and compares them with those in figures/. Charts show measured times.
+# everywhere: a test makes them again and compares them with those in figures/. Charts show measured times. What is SLOW
+# takes minutes: it is made by a full run or when it is asked for by its id, and is not tested.
 function(add_figure chapter id kind caption)
+    cmake_parse_arguments(ARG "SLOW" "" "" ${ARGN})
+    string(TOLOWER "${ARG_SLOW}" slow)
     if(NOT kind MATCHES "^(drawing|rendering|chart)$")
         message(FATAL_ERROR "add_figure ${id}: kind ${kind} is none of drawing, rendering, chart")
     endif()
     string(REPLACE "\\" "\\\\" caption "${caption}")
     string(REPLACE "\"" "\\\"" caption "${caption}")
     string(REPLACE ";" "\\;" caption "${caption}")
-    set_property(GLOBAL APPEND PROPERTY BOOK_FIGURES
-                 "{\"id\": \"${id}\", \"chapter\": \"${chapter}\", \"kind\": \"${kind}\", \"caption\": \"${caption}\"}")
-    if(kind STREQUAL "chart")
+    string(JOIN ", " entry "\"id\": \"${id}\"" "\"chapter\": \"${chapter}\"" "\"kind\": \"${kind}\""
+           "\"slow\": ${slow}" "\"caption\": \"${caption}\"")
+    set_property(GLOBAL APPEND PROPERTY BOOK_FIGURES "{${entry}}")
+    if(slow OR kind STREQUAL "chart")
         return()
     endif()
     book_short_name(${chapter} short)
@@ -110,7 +131,10 @@ if(NOT Catch2_FOUND)
     book_left_out("unit tests and checks of exercises" "Catch2 is not installed (package catch2)")
 elseif(Catch2_VERSION VERSION_LESS 3)
     add_library(book_catch_main OBJECT ${PROJECT_SOURCE_DIR}/tests/catch_main.cpp)
-    target_link_libraries(book_catch_main PRIVATE book_flags PUBLIC Catch2::Catch2)
+    # Others' code, and minutes of compiling with optimiser and sanitizers: it gets neither.
+    target_compile_options(book_catch_main PRIVATE -std=c++20 -O0)
+    target_include_directories(book_catch_main PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(book_catch_main PUBLIC Catch2::Catch2)
     set(BOOK_CATCH_ARGUMENTS -w NoTests)
 else()
     add_library(book_catch_main INTERFACE)
@@ -181,11 +205,4 @@ function(book_write_lists)
         string(APPEND lines "${chapter} ${below}\n")
     endforeach()
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/chapters.txt CONTENT "${lines}" @ONLY)
-
-    # All chapters' programs and nothing else: what a reader needs, whatever state the exercises are in.
-    get_property(programs GLOBAL PROPERTY BOOK_PROGRAMS)
-    add_custom_target(programs)
-    if(programs)
-        add_dependencies(programs ${programs})
-    endif()
 endfunction()

@@ -25,17 +25,15 @@ state_of() {
 }
 
 list_exercises() {
-    local stub name id title
+    local stub state
     printf '%-5s %-44s %-11s %-8s %s\n' '' exercise difficulty minutes state
     for stub in "$root"/chapters/ch*/exercises/ex*.hpp; do
-        [[ -f $stub ]] || continue
-        id=$(sed -n 's|^/// Exercise \([0-9.]*\): .*|\1|p' "$stub")
-        title=$(sed -n 's|^/// Exercise [0-9.]*: ||p' "$stub")
-        name=$(basename "$(dirname "$(dirname "$stub")")")
-        printf '%-5s %-44s %-11s %-8s %s\n' "$id" "$title" \
+        [[ $stub =~ /(ch([0-9]+))_[^/]*/exercises/(ex([0-9]+)_[^/]*)\.hpp$ ]] || continue
+        state=$(state_of "${BASH_REMATCH[1]}.${BASH_REMATCH[3]}" "$stub")
+        printf '%-5s %-44s %-11s %-8s %s\n' "$((10#${BASH_REMATCH[2]})).$((10#${BASH_REMATCH[4]}))" \
+            "$(sed -n 's|^/// Exercise [0-9.]*: ||p' "$stub")" \
             "$(sed -n 's|^/// Difficulty \(. of 3\), about .*|\1|p' "$stub")" \
-            "$(sed -n 's|^/// Difficulty . of 3, about \([0-9]*\) minutes.*|\1|p' "$stub")" \
-            "$(state_of "${name%%_*}.$(basename "$stub" .hpp)" "$stub")"
+            "$(sed -n 's|^/// Difficulty . of 3, about \([0-9]*\) minutes.*|\1|p' "$stub")" "$state"
     done
     printf '\nOpen the file that ./book exercise check N.M names, change it, check it again.\n'
 }
@@ -85,7 +83,7 @@ hint_exercise() {
     [[ -f $hints ]] && level=$(<"$hints")
     ((level < 3)) && level=$((level + 1))
     echo "$level" >"$hints"
-    awk -v level="$level" 'BEGIN {RS = ""} NR <= level {printf "%sHint %d of 3: %s\n", NR > 1 ? "\n" : "", NR, $0}' "$file"
+    awk -v level="$level" 'BEGIN {RS = ""} NR <= level {printf "Hint %d of 3: %s\n\n", NR, $0}' "$file"
 }
 
 solution_exercise() {

@@ -106,12 +106,13 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
 
 TEST_CASE("ray tracer and rasteriser differ only within the stated distance of an edge") {
 #ifdef BOOK_SANITIZED
-    constexpr int width = 40, height = 30;
+    constexpr int width = 24, height = 18;
 #else
-    constexpr int width = 160, height = 120;
+    constexpr int width = 80, height = 60;
 #endif
     std::uint64_t near_edge = 0;
     for (const SceneRecipe& recipe : scene_recipes()) {
+        if (recipe.from_file) continue;  // which need not be there
         const Scene scene = make_scene(recipe.name, 1, true);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const Coverage coverage = compare_coverage(scene, trace_depth(scene.camera, naive, width, height, 2),

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "common/mesh.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+#include "tests/lab/files.hpp"
 #include "tests/lab/process.hpp"
 
 using namespace space;
@@ -65,24 +65,6 @@ std::vector<Ray> random_rays(std::size_t count) {
     return rays;
 }
 
-void write_rays(const std::filesystem::path& file, std::span<const Ray> rays) {
-    std::string bytes;
-    for (const Ray& ray : rays) {
-        const auto& [o, d, tmin, tmax] = ray;
-        const std::array<float, 8> record{o.x, o.y, o.z, tmin, d.x, d.y, d.z, tmax};
-        bytes.append(reinterpret_cast<const char*>(record.data()), sizeof record);
-    }
-    write_file(file, bytes);
-}
-
-std::vector<HitRecord> read_hits(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file);
-    REQUIRE(bytes.size() % sizeof(HitRecord) == 0);
-    std::vector<HitRecord> hits(bytes.size() / sizeof(HitRecord));
-    std::memcpy(hits.data(), bytes.data(), bytes.size());
-    return hits;
-}
-
 std::size_t lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -98,7 +80,11 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
     const std::string files = fmt::format("--mesh {} --rays {} --hits {} --repeat 1", (bench / "soup.ply").string(),
                                           (bench / "rays").string(), (bench / "hits").string());
     const Naive<> naive = Naive<>::build(mesh.triangles());
+    const auto in_float = Naive<BasicMollerTrumbore<float>>::build(mesh.triangles());
 
+    REQUIRE(run(lab + "--structure naive --triangle-test moller-trumbore-float " + files).code == 0);
+    const std::vector<HitRecord> float_hits = read_hits(bench / "hits");
+    REQUIRE(float_hits.size() == rays.size());
     REQUIRE(run(lab + "--structure naive --query closest " + files).code == 0);
     const std::vector<HitRecord> closest = read_hits(bench / "hits");
     REQUIRE(run(lab + "--structure naive --query any " + files).code == 0);
@@ -112,8 +98,10 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
         const HitRecord expected =
             hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle} : HitRecord{infinity, 0.0f, 0.0f, 0xFFFFFFFF};
         CHECK(closest[i] == expected);
+        CHECK(float_hits[i] == HitRecord::closest(closest_hit(in_float, rays[i])));
         CHECK(any[i] == (hit ? HitRecord{0.0f, 0.0f, 0.0f, 0xFFFFFFFE} : expected));
     }
+    CHECK(float_hits != closest);
     CHECK(hits > 200);  // the rays are worth asking
     CHECK(hits < 1800);
 }
@@ -224,7 +212,7 @@ TEST_CASE("the JSON file has exactly the documented members, in order, and true 
     const Workbench bench;
     write_ply(bench / "row.ply", row_of_triangles(40));
     std::vector<Ray> rays;
-    for (std::uint32_t i = 0; i < 50; ++i) rays.push_back(ray_down(i));  // the last ten miss
+    for (std::uint32_t i = 0; i < 500; ++i) rays.push_back(ray_down(i));  // those after the first forty miss
     write_rays(bench / "rays", rays);
     REQUIRE(run(fmt::format("{} --mesh {} --rays {} --json {} --structure naive,naive --query closest --threads 2 "
                             "--build-threads 2",
@@ -255,11 +243,11 @@ TEST_CASE("the JSON file has exactly the documented members, in order, and true 
         for (const char* time : {"build_ms", "trace_ms", "rays_per_s"}) CHECK(structure[time].is_number());
         for (const char* none : {"nodes", "leaves", "depth", "sah_cost", "node_visits"})
             CHECK(structure[none].is_null());
-        CHECK(structure["rays"] == 50);
+        CHECK(structure["rays"] == 500);
         CHECK(structure["hits"] == 40);
         CHECK(structure["references"] == 40);
         CHECK(structure["bytes"] >= 40 * sizeof(Triangle));
-        CHECK(structure["triangle_tests"] == 50 * 40);
+        CHECK(structure["triangle_tests"] == 500 * 40);
         CHECK(structure["threads"] == 2);
         CHECK(structure["build_threads"] == 1);  // naive tracing builds nothing
     }

@@ -1,10 +1,10 @@
 #include "tests/oracle/compare.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include <fmt/format.h>
 
 #include "common/report.hpp"
 #include "tests/oracle/moller_trumbore_bound.hpp"
@@ -33,13 +33,20 @@ bool as_near(float t, float other, double uncertainty) {
 
 const char* name(Agreement agreement) {
     switch (agreement) {
-        case Agreement::agree: return "agree";
-        case Agreement::tie: return "tie";
-        case Agreement::inversion: return "inversion";
-        case Agreement::interval_end: return "interval end";
-        case Agreement::wrong_hit: return "wrong hit";
-        case Agreement::wrong_miss: return "wrong miss";
-        case Agreement::wrong_triangle: return "wrong triangle";
+        case Agreement::agree:
+            return "agree";
+        case Agreement::tie:
+            return "tie";
+        case Agreement::inversion:
+            return "inversion";
+        case Agreement::interval_end:
+            return "interval end";
+        case Agreement::wrong_hit:
+            return "wrong hit";
+        case Agreement::wrong_miss:
+            return "wrong miss";
+        case Agreement::wrong_triangle:
+            return "wrong triangle";
     }
     return "";
 }
@@ -104,7 +111,9 @@ bool within_bound(const Ray& ray, const Triangle& triangle) {
     return std::abs(smallest) <= bound;
 }
 
-std::size_t Tally::examined() const { return std::accumulate(counts.begin(), counts.end(), std::size_t{0}); }
+std::size_t Tally::examined() const {
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
 
 std::size_t Tally::wrong() const {
     return (*this)[Agreement::wrong_hit] + (*this)[Agreement::wrong_miss] + (*this)[Agreement::wrong_triangle];
@@ -128,7 +137,8 @@ std::string Tally::text() const {
     std::string text;
     for (std::size_t i = 0; i < agreements; ++i)
         if (counts[i])
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name(static_cast<Agreement>(i)), with_commas(counts[i]));
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name(static_cast<Agreement>(i)),
+                                with_commas(counts[i]));
     return fmt::format("{}; t not the nearest float {}; beyond the error bound {}; skipped {}", text,
                        with_commas(rounded_t), with_commas(beyond_bound), with_commas(skipped));
 }

@@ -12,8 +12,8 @@
 
 namespace space {
 
-/// "As near as Möller-Trumbore in double can tell" below: nearer than a unit in the last place of t plus the error bound
-/// of tests/oracle/moller_trumbore_bound.hpp.
+/// "As near as Möller-Trumbore in double can tell" below: nearer than a unit in the last place of t plus the error
+/// bound of tests/oracle/moller_trumbore_bound.hpp.
 enum class Agreement {
     agree,           ///< both miss, or the one nearest triangle
     tie,             ///< one of several triangles at exactly the nearest t
@@ -28,8 +28,9 @@ const char* name(Agreement agreement);
 
 struct Comparison {
     Agreement agreement = Agreement::agree;
-    bool rounded = false;       ///< the reported t is not the float nearest to that triangle's exact one
-    bool beyond_bound = false;  ///< and differs from it by more than can be told; or the wrong decision is beyond the bound
+    bool rounded = false;  ///< the reported t is not the float nearest to that triangle's exact one
+    bool beyond_bound =
+        false;  ///< and differs from it by more than can be told; or the wrong decision is beyond the bound
     /// Of a wrong answer: the triangle that was decided wrongly, taken for a hit or for a miss.
     std::optional<std::uint32_t> wrongly_decided = {};
 

@@ -7,13 +7,19 @@
 namespace space {
 namespace {
 
-Triangle layer(float z) { return {{-4, -4, z}, {8, -4, z}, {-4, 8, z}}; }
+Triangle layer(float z) {
+    return {{-4, -4, z}, {8, -4, z}, {-4, 8, z}};
+}
 /// Far in front; two at the same t; one a float behind them, which a distant origin cannot tell apart; one far behind.
 const std::vector<Triangle> layers{layer(2), layer(1), layer(1), layer(std::nextafter(1.0f, 0.0f)), layer(-2)};
 const ExactOracle oracle = ExactOracle::build(layers);
 
-Ray down(float z) { return {.origin = {0, 0, z}, .direction = {0, 0, -1}}; }
-Agreement judged(const Ray& ray, std::optional<Hit> answer) { return compare(oracle, ray, answer).agreement; }
+Ray down(float z) {
+    return {.origin = {0, 0, z}, .direction = {0, 0, -1}};
+}
+Agreement judged(const Ray& ray, std::optional<Hit> answer) {
+    return compare(oracle, ray, answer).agreement;
+}
 
 }  // namespace
 

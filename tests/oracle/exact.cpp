@@ -1,12 +1,12 @@
 // The only source file that includes CGAL: it is compiled once, for all tests.
 #include "tests/oracle/exact.hpp"
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 namespace space {
 namespace {
@@ -63,7 +63,8 @@ struct Volumes {
 
 /// The line passes two edges on different sides, beyond doubt. A volume computed in double is a sum of six products of
 /// three factors; a difference of coordinates, two products and the sums round at most eight times (2^-53 each), so it
-/// is off by less than 6 * 8 * 2^-53 < 2^-47 times the largest product. Doubles of this size neither over- nor underflow.
+/// is off by less than 6 * 8 * 2^-53 < 2^-47 times the largest product. Doubles of this size neither over- nor
+/// underflow.
 bool certainly_missed(const Ray& ray, const Triangle& triangle) {
     const View<double> view(ray, triangle);
     const auto largest = [](const Vec<double>& v) {
@@ -113,7 +114,9 @@ float nearest_float(const Exact& value) {
     }
 }
 
-bool in_interval(float t, const Ray& ray) { return ray.tmin <= t && t <= ray.tmax; }
+bool in_interval(float t, const Ray& ray) {
+    return ray.tmin <= t && t <= ray.tmax;
+}
 
 }  // namespace
 

@@ -3,9 +3,9 @@
 ///
 /// The contract. Coordinates are the floats as they stand, without any rounding. Triangles are closed: their edges and
 /// vertices belong to them. A triangle that the ray's direction is parallel to (determinant zero: seen exactly edge-on,
-/// also by a ray within its plane) is never hit, and so no triangle of zero area is. t is the float nearest to the exact
-/// t (ties to even), and it is this float that must lie in the closed interval [tmin, tmax]: the interval's ends count
-/// with half a unit in the last place around them. A ray that is not valid (common/geometry.hpp) hits nothing.
+/// also by a ray within its plane) is never hit, and so no triangle of zero area is. t is the float nearest to the
+/// exact t (ties to even), and it is this float that must lie in the closed interval [tmin, tmax]: the interval's ends
+/// count with half a unit in the last place around them. A ray that is not valid (common/geometry.hpp) hits nothing.
 #pragma once
 
 #include <cstdint>
@@ -60,8 +60,9 @@ class ExactOracle {
     std::vector<Triangle> triangles_;
 };
 
-/// The same decision by CGAL's own predicate, CGAL::do_intersect(Ray_3, Triangle_3) in its exact kernel: whether the ray
-/// with t >= 0 and no upper end meets the triangle, which must not be degenerate. It calls a ray within the plane a hit.
+/// The same decision by CGAL's own predicate, CGAL::do_intersect(Ray_3, Triangle_3) in its exact kernel: whether the
+/// ray with t >= 0 and no upper end meets the triangle, which must not be degenerate. It calls a ray within the plane a
+/// hit.
 bool cgal_do_intersect(const Ray& ray, const Triangle& triangle);
 
 }  // namespace space

@@ -13,7 +13,9 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// In the plane z = 0; its long edge is x + y = 4.
 const Triangle corner{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 
-Ray down(float x, float y) { return {.origin = {x, y, 1}, .direction = {0, 0, -1}}; }
+Ray down(float x, float y) {
+    return {.origin = {x, y, 1}, .direction = {0, 0, -1}};
+}
 
 Point3 random_point(Pcg32& random, float low, float high) {
     const float x = random.uniform(low, high), y = random.uniform(low, high), z = random.uniform(low, high);
@@ -102,9 +104,9 @@ TEST_CASE("t is the nearest float, ties to even, from the smallest to beyond the
         return hits.front().t;
     };
     CHECK(t(0, 1, 3) == 1.0f / 3.0f);
-    CHECK(t(-1, 0x1p24f, 1) == 0x1p24f);          // 2^24 + 1: between two floats
-    CHECK(t(-3, 0x1p24f, 1) == 0x1p24f + 4.0f);   // 2^24 + 3
-    CHECK(t(0, 0x1p-50f, 0x1p100f) == 0.0f);      // half of the smallest float
+    CHECK(t(-1, 0x1p24f, 1) == 0x1p24f);           // 2^24 + 1: between two floats
+    CHECK(t(-3, 0x1p24f, 1) == 0x1p24f + 4.0f);    // 2^24 + 3
+    CHECK(t(0, 0x1p-50f, 0x1p100f) == 0.0f);       // half of the smallest float
     CHECK(t(0, 0x3p-50f, 0x1p100f) == 0x1p-148f);  // one and a half
     CHECK(t(0, 0x1.000002p-50f, 0x1p100f) == 0x1p-149f);
     CHECK(t(-3e38f, 3e38f, 1) == infinity);
@@ -140,7 +142,8 @@ TEST_CASE("hits come in the order of exact t, with equal ranks at equal t only")
 
 TEST_CASE("the oracle sees a vertex and an edge where floats do not: no ray leaks between neighbours") {
     // Two triangles that share the edge a c, and a ray that meets that edge only to within rounding.
-    const Point3 a(-1.0625f, -1.125f, -0.125f), b(0.75f, -0.875f, 0.0625f), c(1.1875f, 1.0625f, 0), d(-1.0625f, 0.8125f, -0.125f);
+    const Point3 a(-1.0625f, -1.125f, -0.125f), b(0.75f, -0.875f, 0.0625f), c(1.1875f, 1.0625f, 0),
+        d(-1.0625f, 0.8125f, -0.125f);
     const std::vector<Triangle> quad{{a, b, c}, {a, c, d}};
     CHECK(ExactOracle::build(quad).hits({{3, 2, 5}, {-2.26249981f, -1.375f, -5.0250001f}}).size() == 1);
 
@@ -169,7 +172,9 @@ TEST_CASE("the exact oracle and whole-number arithmetic agree on every hit, plac
     std::size_t hits = 0, borders = 0, ties = 0;
     for (const std::uint32_t range : {3u, 40u, 8192u}) {
         Pcg32 random(range);
-        const auto coordinate = [&] { return static_cast<float>(random.below(2 * range + 1)) - static_cast<float>(range); };
+        const auto coordinate = [&] {
+            return static_cast<float>(random.below(2 * range + 1)) - static_cast<float>(range);
+        };
         const auto point = [&] {
             const float x = coordinate(), y = coordinate(), z = coordinate();
             return Point3(x, y, z);

@@ -64,7 +64,8 @@ class IntegerOracle {
         for (std::size_t i = 0; i < found.size(); ++i) {
             found[i].hit.rank = i == 0 ? 0 : found[i - 1].hit.rank + (order(found[i - 1], found[i]) < 0);
             // Wrong by at most 2^-64 of itself before it is rounded to float.
-            found[i].hit.t = static_cast<float>(static_cast<long double>(found[i].height) / static_cast<long double>(found[i].speed));
+            found[i].hit.t = static_cast<float>(static_cast<long double>(found[i].height) /
+                                                static_cast<long double>(found[i].speed));
             hits.push_back(found[i].hit);
         }
         return hits;

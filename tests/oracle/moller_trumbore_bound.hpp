@@ -5,14 +5,14 @@
 /// of p . ab = (direction x ac) . ab collects the roundings of ac, of a product and of a difference (in p), of ab, of
 /// a product and of two sums: 7, so that the computed value differs from the exact one by at most
 ///     7 e perm(direction, ac, ab) + O(e^2)  <  8 e perm(direction, ac, ab).
-/// p . s and q . direction are counted alike (7), q . ac has one rounding more (8, < 9 e). Floats, their differences and
-/// products of three or four of them are far from the ends of double's range, so nothing over- or underflows.
+/// p . s and q . direction are counted alike (7), q . ac has one rounding more (8, < 9 e). Floats, their differences
+/// and products of three or four of them are far from the ends of double's range, so nothing over- or underflows.
 ///
 /// Let D, U, V, T be the exact determinant and numerators, D + dD ... the computed ones. Where the code accepts, it has
 /// seen u' = (U + dU) / (D + dD) in [0, 1], so the exact weight is u = U / D = u' + (u' dD - dU) / D, off by at most
 /// (|dD| + |dU|) / |D|; the quotient's own rounding adds e. Where it rejects because of u' < 0 while u >= 0, either
-/// |dU| >= |U| or |dD| >= |D|; because of u' > 1 while u <= 1, 1 - u <= (|dD| + |dU|) / |D|. The same for v, and for the
-/// third weight the errors of u and v and the sum's rounding add up. So a wrong decision needs an exact weight
+/// |dU| >= |U| or |dD| >= |D|; because of u' > 1 while u <= 1, 1 - u <= (|dD| + |dU|) / |D|. The same for v, and for
+/// the third weight the errors of u and v and the sum's rounding add up. So a wrong decision needs an exact weight
 /// within
 ///     weight = (2 * 8 e perm(direction, ac, ab) + 8 e perm(direction, ac, s) + 8 e perm(direction, ab, s)) / |D| + 4 e
 /// of zero, and t is off by at most

@@ -1,11 +1,11 @@
 // Möller-Trumbore in double against exact arithmetic: where it may be wrong, and what holds bit for bit.
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 
-#include <cstdlib>
-#include <utility>
-
 #include <fmt/format.h>
 #include <rapidcheck.h>
+
+#include <cstdlib>
+#include <utility>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/pcg32.hpp"
@@ -27,7 +27,9 @@ constexpr int pairs = 20'000;
 /// The same examples on every run; RC_PARAMS in the environment asks for others.
 const int seeded = ::setenv("RC_PARAMS", "seed=1 max_success=1000", 0);
 
-Point3 random_point(Pcg32& random, float low, float high) { return scenes::random_point(random, low, high); }
+Point3 random_point(Pcg32& random, float low, float high) {
+    return scenes::random_point(random, low, high);
+}
 
 struct Decisions {
     std::size_t wrong_hits = 0, wrong_misses = 0, beyond = 0;
@@ -57,24 +59,24 @@ Decisions decisions(std::uint64_t seed, const Aim& aim) {
             count.beyond += std::abs(hit->v - at->v) > bound.weight + 0x1p-24;
         }
     }
-    fmt::print("  seed {}: {} rays and triangles, {} wrong hits, {} wrong misses\n", seed, with_commas(pairs), count.wrong_hits,
-               count.wrong_misses);
+    fmt::print("  seed {}: {} rays and triangles, {} wrong hits, {} wrong misses\n", seed, with_commas(pairs),
+               count.wrong_hits, count.wrong_misses);
     return count;
 }
 
 }  // namespace
 
 TEST_CASE("Möller-Trumbore in double decides all random rays exactly") {
-    const Decisions count = decisions(1, [](Pcg32& random, const Triangle&) { return random_point(random, -1.0f, 1.0f); });
+    const Decisions count =
+        decisions(1, [](Pcg32& random, const Triangle&) { return random_point(random, -1.0f, 1.0f); });
     CHECK(count.wrong_hits == 0);
     CHECK(count.wrong_misses == 0);
     CHECK(count.beyond == 0);
 }
 
 TEST_CASE("Möller-Trumbore in double errs at edges and vertices only within its error bound") {
-    const Decisions at_edges = decisions(2, [](Pcg32& random, const Triangle& t) {
-        return t.a + random.uniform() * (t.b - t.a);
-    });
+    const Decisions at_edges =
+        decisions(2, [](Pcg32& random, const Triangle& t) { return t.a + random.uniform() * (t.b - t.a); });
     const Decisions at_vertices = decisions(3, [](Pcg32&, const Triangle& t) { return t.b; });
     CHECK(at_edges.beyond == 0);
     CHECK(at_vertices.beyond == 0);
@@ -95,7 +97,8 @@ TEST_CASE("Möller-Trumbore never hits a triangle without area, whatever roundin
     std::size_t noisy = 0, hits = 0;
     for (int i = 0; i < pairs; ++i) {
         const auto fraction = [&] { return static_cast<float>(1 + random.below(1u << 20)) * 0x1p-23f; };
-        const float sx = fraction(), sy = fraction(), sz = fraction(), ax = fraction(), ay = fraction(), az = fraction();
+        const float sx = fraction(), sy = fraction(), sz = fraction(), ax = fraction(), ay = fraction(),
+                    az = fraction();
         const Point3 a(ax, ay, az), step(sx, sy, sz);
         const Triangle triangle{a, a + step, a + 3.0f * step};
         REQUIRE(is_degenerate(triangle));
@@ -116,9 +119,10 @@ rc::Gen<float> coordinate() {
     return rc::gen::map(rc::gen::inRange(-2048, 2048), [](int i) { return static_cast<float>(i) * 0x1p-10f; });
 }
 rc::Gen<Point3> point() {
-    return rc::gen::map(rc::gen::tuple(coordinate(), coordinate(), coordinate()), [](const std::tuple<float, float, float>& p) {
-        return Point3(std::get<0>(p), std::get<1>(p), std::get<2>(p));
-    });
+    return rc::gen::map(rc::gen::tuple(coordinate(), coordinate(), coordinate()),
+                        [](const std::tuple<float, float, float>& p) {
+                            return Point3(std::get<0>(p), std::get<1>(p), std::get<2>(p));
+                        });
 }
 rc::Gen<Triangle> triangle() {
     return rc::gen::map(rc::gen::tuple(point(), point(), point()), [](const std::tuple<Point3, Point3, Point3>& t) {
@@ -186,7 +190,8 @@ TEST_CASE("property: a translation without rounding gives the same hit, bit for 
         const float x = whole(), y = whole(), z = whole();
         const Vector3 shift(x, y, z);
         const Triangle moved{t.a + shift, t.b + shift, t.c + shift};
-        RC_ASSERT(MollerTrumbore::intersect(ray, t) == MollerTrumbore::intersect({ray.origin + shift, ray.direction}, moved));
+        RC_ASSERT(MollerTrumbore::intersect(ray, t) ==
+                  MollerTrumbore::intersect({ray.origin + shift, ray.direction}, moved));
     }));
 }
 
@@ -210,7 +215,8 @@ TEST_CASE("property: the order of the triangles changes the nearest triangle's i
         std::vector<Triangle> shuffled = triangles;
         for (std::size_t i = shuffled.size(); i > 1; --i)
             std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(i)))]);
-        const auto hit = closest_hit(Naive<>::build(triangles), ray), again = closest_hit(Naive<>::build(shuffled), ray);
+        const auto hit = closest_hit(Naive<>::build(triangles), ray),
+                   again = closest_hit(Naive<>::build(shuffled), ray);
         RC_ASSERT(hit.has_value() == again.has_value());
         if (hit) {
             RC_ASSERT(hit->t == again->t);

@@ -4,10 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 #include <vector>
-
-#include <glm/common.hpp>
 
 #include "common/geometry.hpp"
 #include "common/pcg32.hpp"
@@ -69,7 +68,8 @@ inline std::vector<Triangle> ball(int levels) {
         std::vector<Triangle> finer;
         for (const auto& [a, b, c] : triangles) {
             const Point3 ab = (a + b) * 0.5f, bc = (b + c) * 0.5f, ca = (c + a) * 0.5f;
-            for (const Triangle& part : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) finer.push_back(part);
+            for (const Triangle& part : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+                finer.push_back(part);
         }
         triangles = std::move(finer);
     }
@@ -81,8 +81,11 @@ inline std::vector<Triangle> ball(int levels) {
 
 /// The twelve triangles of an axis-aligned box.
 inline void add_box(std::vector<Triangle>& triangles, const Point3& low, const Point3& high) {
-    const auto corner = [&](int i) { return Point3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z); };
-    for (const auto& [a, b, c, d] : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    const auto corner = [&](int i) {
+        return Point3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    };
+    for (const auto& [a, b, c, d] :
+         {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
         triangles.push_back({corner(a), corner(b), corner(c)});
         triangles.push_back({corner(a), corner(c), corner(d)});
     }
@@ -158,7 +161,9 @@ inline std::vector<TestScene> adversarial_scenes() {
         std::vector<Triangle> triangles;
         for (int i = 0; i < 100; ++i) {
             // Multiples of 2^-23 whose sums are exact.
-            const auto fraction = [&](std::uint32_t bound) { return static_cast<float>(1 + random.below(bound)) * 0x1p-23f; };
+            const auto fraction = [&](std::uint32_t bound) {
+                return static_cast<float>(1 + random.below(bound)) * 0x1p-23f;
+            };
             const auto point = [&](std::uint32_t bound) {
                 const float x = fraction(bound), y = fraction(bound), z = fraction(bound);
                 return Point3(x, y, z);

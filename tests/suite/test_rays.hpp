@@ -90,7 +90,7 @@ class RayMaker {
         const auto with = [&](float tmin, float tmax) {
             return TestRay{"cut interval", {ray.origin, ray.direction, tmin, tmax}};
         };
-        return {with(t, t),       with(0.0f, t),          with(t, infinity),      with(after, infinity),
+        return {with(t, t),         with(0.0f, t),           with(t, infinity),   with(after, infinity),
                 with(0.0f, before), with(-infinity, before), with(before, after), with(-infinity, infinity),
                 with(t, before)};
     }
@@ -100,7 +100,8 @@ class RayMaker {
         const Double3 middle = (Double3(triangle.a) + Double3(triangle.b) + Double3(triangle.c)) / 3.0;
         const Double3 across = normal(triangle);
         const double length = glm::length(across);
-        if (length == 0.0) return {.origin = Point3(middle), .direction = {0.0f, 0.0f, 1.0f}, .tmin = -1.0f, .tmax = 1.0f};
+        if (length == 0.0)
+            return {.origin = Point3(middle), .direction = {0.0f, 0.0f, 1.0f}, .tmin = -1.0f, .tmax = 1.0f};
         const Point3 origin(middle + across / length * double{reach_});
         return {.origin = origin, .direction = Vector3(middle - Double3(origin))};
     }

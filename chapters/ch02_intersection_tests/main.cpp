@@ -1,0 +1,46 @@
+/// Chapter 2: intersection tests and square roots, each with its cost and its error.
+/// Run   ch02_intersection_tests --out pictures
+/// Draw  ch02_intersection_tests --figure fig_02_11 --out figures
+#include <fmt/format.h>
+
+#include "chapters/ch02_intersection_tests/figures.hpp"
+#include "chapters/ch02_intersection_tests/measurements.hpp"
+#include "chapters/ch02_intersection_tests/tables.hpp"
+#include "common/error.hpp"
+#include "common/report.hpp"
+
+namespace space {
+namespace {
+
+int run(int argc, char** argv) {
+    const Options options = parse_options(argc, argv,
+                                          {.name = "ch02_intersection_tests",
+                                           .about = "Chapter 2: intersection tests and square roots, fast and right",
+                                           .defaults = {}});
+    if (options.figure) return make_figures(chapter02_figures(), options);
+
+    const Measurements measured = measure(options);
+    print_triangles(measured);
+    print_roots(measured);
+    print_boxes_and_spheres(measured);
+    print_bounces(measured);
+
+    const Results results{"ch02_intersection_tests", options.small, answer_claims(measured)};
+    write_results(options.out / "results.json", results);
+    if (options.small) return 0;  // times are no test's business
+
+    print_times(measured);
+    for (const Chart& chart : {triangle_chart(measured), root_chart(measured), box_chart(measured), sphere_chart(measured)})
+        write_chart(options.out, chart);
+    print_heading("The sources' claims");
+    for (const ClaimAnswer& answer : results.answers)
+        fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
+    return 0;
+}
+
+}  // namespace
+}  // namespace space
+
+int main(int argc, char** argv) {
+    return space::run_program("ch02_intersection_tests", space::run, argc, argv);
+}

@@ -1,0 +1,114 @@
+// What the pages of the book do in a browser, beside what doxygen-awesome brings: formulas, search, wide tables.
+DoxygenAwesomeDarkModeToggle.title = "Light or dark page";
+DoxygenAwesomeDarkModeToggle.init();
+DoxygenAwesomeFragmentCopyButton.init();
+DoxygenAwesomeParagraphLink.init();
+DoxygenAwesomeInteractiveToc.topOffset = 45;
+DoxygenAwesomeInteractiveToc.init();
+
+// Formulas: MathJax is in the site and is loaded where a page has any.
+window.MathJax = {
+  showMathMenu: false,
+  messageStyle: "none",
+  tex2jax: { inlineMath: [["\\(", "\\)"]], displayMath: [["\\[", "\\]"]] },
+  SVG: { font: "TeX", scale: 92, linebreaks: { automatic: true, width: "container" } },
+  TeX: { noErrors: { disabled: true }, noUndefined: { disabled: true } },
+  AuthorInit() {
+    for (const fault of ["TeX Jax - parse error", "TeX Jax - undefined macro", "Math Processing Error"])
+      MathJax.Hub.Register.MessageHook(fault, (message) => console.error("formula: " + message.slice(1, 3).join(": ")));
+    MathJax.Hub.Register.StartupHook("End", () => document.documentElement.classList.add("formulas-shown"));
+  },
+};
+
+function load(script) {
+  const element = document.createElement("script");
+  element.src = script;
+  return new Promise((loaded) => {
+    element.onload = loaded;
+    document.head.append(element);
+  });
+}
+
+// Letters without accents, in lower case: "Möller" is found as "moller" too.
+const plain = (text) => text.normalize("NFD").replace(/\p{Mark}/gu, "").toLowerCase();
+
+// All words must occur; a word of the heading counts most, then one that starts a word of the text.
+function score(entry, words) {
+  let sum = 0;
+  for (const word of words) {
+    const inTitle = entry.plainTitle.indexOf(word), inText = entry.plainText.indexOf(word);
+    if (inTitle < 0 && inText < 0) return 0;
+    if (inTitle >= 0) sum += entry.plainTitle === word ? 40 : /\W/.test(entry.plainTitle[inTitle - 1] ?? " ") ? 20 : 8;
+    if (inText >= 0) sum += Math.min(4, entry.plainText.split(word).length - 1);
+  }
+  return sum * (entry.book ? 2 : 1);
+}
+
+function excerpt(entry, words) {
+  const at = Math.max(0, entry.plainText.indexOf(words.find((word) => entry.plainText.includes(word)) ?? "") - 40);
+  const start = at && entry.text.indexOf(" ", at) + 1;
+  const end = entry.text.length > start + 130 ? entry.text.lastIndexOf(" ", start + 130) : entry.text.length;
+  return (start ? "… " : "") + entry.text.slice(start, end) + (end < entry.text.length ? " …" : "");
+}
+
+function search() {
+  const field = document.getElementById("MSearchField"), results = document.getElementById("search-results");
+  const words = plain(field.value).split(/\s+/).filter(Boolean);
+  results.replaceChildren();
+  results.hidden = !words.length || !window.bookText;
+  if (results.hidden) return;
+  const found = window.bookText.map((entry) => [score(entry, words), entry]).filter(([points]) => points);
+  found.sort(([a], [b]) => b - a);
+  for (const [, entry] of found.slice(0, 12)) {
+    const link = document.createElement("a"), title = document.createElement("b"), text = document.createElement("span");
+    link.href = entry.url;
+    title.textContent = entry.title === entry.page ? entry.title : `${entry.title} · ${entry.page}`;
+    text.textContent = excerpt(entry, words);
+    link.append(title, text);
+    results.append(link);
+  }
+  if (!found.length) results.append("Nothing in the book has all of these words.");
+}
+
+document.addEventListener("DOMContentLoaded", () => {
+  if (/\\[(\[]/.test(document.querySelector(".contents")?.textContent)) load("mathjax/MathJax.js?config=TeX-AMS_SVG-full");
+  else document.documentElement.classList.add("formulas-shown");
+
+  // A table wider than the page scrolls in a box of its own.
+  for (const table of document.querySelectorAll(".contents table.markdownTable, .contents table.doxtable")) {
+    const box = document.createElement("div");
+    box.className = "scroll";
+    table.replaceWith(box);
+    box.append(table);
+  }
+
+  const field = document.getElementById("MSearchField"), results = document.createElement("div");
+  results.id = "search-results";
+  results.hidden = true;
+  document.body.append(results);
+  field.addEventListener("focus", async () => {
+    if (window.bookText) return;
+    await load("search_text.js");
+    for (const entry of window.bookText) {
+      entry.plainTitle = plain(entry.title);
+      entry.plainText = plain(entry.text);
+    }
+    search();
+  });
+  field.addEventListener("input", search);
+  document.addEventListener("keydown", (event) => {
+    const links = [...results.querySelectorAll("a")], at = links.indexOf(document.activeElement);
+    const typing = /^(INPUT|TEXTAREA)$/.test(document.activeElement.tagName);
+    if (event.key === "/" && !typing) field.focus();
+    else if (event.key === "Escape" && !results.hidden) results.hidden = true;
+    else if (event.key === "Enter" && typing && links.length) links[0].click();
+    else if (event.key === "ArrowDown" && !results.hidden) (links[at + 1] ?? links[0])?.focus();
+    else if (event.key === "ArrowUp" && at >= 0) (links[at - 1] ?? field).focus();
+    else return;
+    event.preventDefault();
+  });
+  document.addEventListener("click", (event) => {
+    if (!event.target.closest("#search-results a, #MSearchBox")) results.hidden ||= !results.contains(event.target);
+    if (event.target.closest("#search-results a")) results.hidden = true;
+  });
+});

@@ -1,0 +1,24 @@
+/// @file
+/// What Doxygen leaves to do on its HTML files: drawings become part of the page, quoted code starts at
+/// the margin, links lead somewhere.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace space::docs {
+
+/// Puts the SVG files that the page shows into the page itself, where the page's colours reach them.
+/// @throws Error (bad_input) where a picture is missing or two pictures of the page share an element's id
+std::string inline_drawings(const std::string& page, const std::filesystem::path& folder);
+
+/// Quoted code loses the indentation that all of its lines share.
+std::string dedent_fragments(const std::string& page);
+
+/// The line of links to the parts of a page of the code goes: some lead nowhere (Doxygen 1.9.4, private classes).
+std::string without_summary(const std::string& page);
+
+/// All of these, on every page of the site.
+void finish_pages(const std::filesystem::path& site);
+
+}  // namespace space::docs

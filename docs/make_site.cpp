@@ -1,0 +1,85 @@
+/// Makes the book as a web site: writes the generated pages, runs Doxygen, finishes its pages, adds MathJax.
+/// Run   make_site --out build/book/site
+#include <fmt/format.h>
+
+#include <array>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/options.hpp"
+#include "docs/finish.hpp"
+#include "docs/pages.hpp"
+#include "docs/search_text.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace space;
+
+/// The part of MathJax that turns the book's formulas into SVG: 3 of 54 MB.
+void copy_mathjax(const fs::path& from, const fs::path& to) {
+    constexpr std::array parts{"MathJax.js",
+                               "config/TeX-AMS_SVG-full.js",
+                               "jax/element/mml",
+                               "jax/output/SVG/config.js",
+                               "jax/output/SVG/jax.js",
+                               "jax/output/SVG/autoload",
+                               "jax/output/SVG/fonts/TeX"};
+    for (const char* part : parts) {
+        fs::create_directories((to / part).parent_path());
+        fs::copy(from / part, to / part, fs::copy_options::recursive);
+    }
+}
+
+/// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
+void run_doxygen(const fs::path& work, const fs::path& site) {
+    const std::string settings = read_file(fs::path(BOOK_DOXYFILE)) +
+                                 fmt::format(
+                                     "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nEXAMPLE_PATH += \"{0}\"\n"
+                                     "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
+                                     work.string(), site.string());
+    write_file(work / "Doxyfile", settings);
+    fs::create_directories(site);
+    const std::string command = fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, (work / "Doxyfile").string());
+    if (std::system(command.c_str()) != 0)
+        throw input_error("Doxygen has warnings or failed; its lines above say where");
+}
+
+int make_site(int argc, char** argv) {
+    docs::Places places{
+        .root = BOOK_ROOT, .configured = BOOK_CONFIGURED, .runs = fs::path(BOOK_ROOT) / "build/book", .pages = {}};
+    fs::path site = places.configured / "site";
+    CLI::App app("Makes the book as a web site that opens from a local file.", "make_site");
+    app.add_option("--out", site, "folder of the site; replaced as a whole")->capture_default_str();
+    app.add_option("--runs", places.runs,
+                   "what ./book run wrote; newer figures and results than the committed ones are shown")
+        ->capture_default_str();
+    parse_command_line(app, argc, argv);
+
+    // Everything is made beside the old site, which stands until the new one is whole.
+    site = fs::absolute(site);
+    const fs::path work = places.configured / "site_pages", fresh = site.string() + ".new";
+    fs::remove_all(work);
+    fs::remove_all(fresh);
+    places.pages = work;
+    docs::write_pages(places);
+    run_doxygen(work, fresh);
+    docs::finish_pages(fresh);
+    docs::write_search_text(fresh);
+    copy_mathjax(BOOK_MATHJAX, fresh / "mathjax");
+    if (exists(work / "data")) fs::copy(work / "data", fresh);
+    fs::remove_all(site);
+    fs::rename(fresh, site);
+    fmt::print("{}\n", (site / "index.html").string());
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return space::run_program("make_site", make_site, argc, argv);
+}

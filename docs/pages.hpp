@@ -1,0 +1,26 @@
+/// @file
+/// The pages that nobody writes by hand: chapter table, exercises, figures, claims, and the menu.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace space::docs {
+
+/// Where things are.
+struct Places {
+    std::filesystem::path root;        ///< the project
+    std::filesystem::path configured;  ///< the build directory, with figures.json and exercises.txt
+    std::filesystem::path runs;        ///< what ./book run wrote, chNN/..., if it did
+    std::filesystem::path pages;       ///< where the generated pages go
+};
+
+/// Writes *.dox, layout.xml and images/ into places.pages.
+/// @throws Error (bad_input) for a malformed list, exercise or results file, (bad_output)
+void write_pages(const Places& places);
+
+/// The text with the characters that mean something in HTML written as entities.
+std::string html(std::string_view text);
+
+}  // namespace space::docs

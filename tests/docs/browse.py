@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""Opens the site in a headless Chromium, from local files, and looks for what a reader would trip over:
+broken links and pictures, formulas left raw, figures that do not follow the page's colours, a search that finds nothing,
+errors in the console, requests to a network, text wider than a phone. Prints a line per fault; exit code 77: no browser.
+
+Run: browse.py SITE"""
+
+import html.parser
+import json
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+import urllib.parse
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    print("skipped: python3-selenium is not installed")
+    sys.exit(77)
+browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+driver = shutil.which("chromedriver")
+if not browser or not driver:
+    print("skipped: chromium or chromium-driver is not installed")
+    sys.exit(77)
+
+site = pathlib.Path(sys.argv[1]).resolve()
+faults = []
+
+
+def fault(page, what):
+    faults.append(f"{page}: {what}")
+
+
+class Page(html.parser.HTMLParser):
+    """The ids of a page, and what it links to and loads."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.ids, self.twice, self.links, self.parts = set(), set(), [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        name = attributes.get("id")
+        if name is not None:
+            (self.twice if name in self.ids else self.ids).add(name)
+        if tag == "a":
+            self.ids.add(attributes.get("name"))
+            if "href" in attributes:
+                self.links.append(attributes["href"])
+        elif "src" in attributes or (tag in ("link", "object") and "xmlns" not in attributes):
+            self.parts.append(attributes.get("src") or attributes.get("href") or attributes.get("data") or "")
+
+
+# Pages of the code are Doxygen's; their links are checked too, but they are not opened one by one.
+code = re.compile(r"(class|struct|concept|namespace|union|functions|dir_|globals|annotated|files|hierarchy|concepts).*|.*_8.*")
+pages = {file.name: Page(file.read_text()) for file in sorted(site.glob("*.html"))}
+book = [name for name in pages if not code.fullmatch(name.removesuffix(".html"))]
+for needed in ("index.html", "exercises.html", "figures.html", "ledger.html"):
+    if needed not in book:
+        fault(needed, "is missing")
+
+for name, page in pages.items():
+    for link in page.links:
+        target = urllib.parse.urlsplit(link)
+        if target.scheme in ("http", "https", "javascript", "mailto") or link == "":
+            continue
+        file = urllib.parse.unquote(target.path) or name
+        anchor = urllib.parse.unquote(target.fragment)
+        if not (site / file).is_file():
+            fault(name, f"links to {link}, which is not there")
+        elif anchor and file in pages and anchor not in pages[file].ids:
+            fault(name, f"links to {link}: no such anchor")
+    for part in page.parts:
+        if urllib.parse.urlsplit(part).scheme not in ("", "data") or not (part.startswith("data:") or (site / part).is_file()):
+            fault(name, f"needs {part}, which is not in the site")
+    for twice in page.twice & page.ids if name in book else ():
+        fault(name, f"has two elements with the id {twice}")
+
+options = webdriver.ChromeOptions()
+options.binary_location = browser
+profile = tempfile.TemporaryDirectory()
+for argument in (
+    "--headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-background-networking "
+    f"--disable-component-update --disable-sync --no-first-run --user-data-dir={profile.name}"
+).split():
+    options.add_argument(argument)
+options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+chromium = webdriver.Chrome(service=Service(driver), options=options)
+chromium.set_page_load_timeout(60)
+
+
+def run(script):
+    return chromium.execute_script(script)
+
+
+def wait(script, seconds=20):
+    try:
+        WebDriverWait(chromium, seconds, poll_frequency=0.05).until(lambda _: run("return " + script))
+        return True
+    except Exception:
+        return False
+
+
+def window(width, mode="light"):
+    height = 844 if width < 500 else 900
+    chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                             dict(width=width, height=height, deviceScaleFactor=1, mobile=width < 500))
+    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(features=[dict(name="prefers-color-scheme", value=mode)]))
+
+
+def open_page(name):
+    chromium.get((site / name).as_uri())
+    if not wait("document.documentElement.classList.contains('formulas-shown')"):
+        fault(name, "formulas were never shown")
+
+
+def look_at_logs(name):
+    for entry in chromium.get_log("browser"):
+        if entry["level"] in ("SEVERE", "WARNING"):
+            fault(name, "console: " + entry["message"])
+    for entry in chromium.get_log("performance"):
+        message = json.loads(entry["message"])["message"]
+        if message["method"] == "Network.requestWillBeSent":
+            url = message["params"]["request"]["url"]
+            if urllib.parse.urlsplit(url).scheme not in ("file", "data", "blob", "about", "chrome"):
+                fault(name, f"asks the network for {url}")
+
+
+# What sticks out of the window and cannot be scrolled to in a box of its own.
+sticking_out = """
+    const width = document.documentElement.clientWidth, wide = [];
+    if (document.documentElement.scrollWidth > width) wide.push("the page itself");
+    for (const element of document.querySelectorAll(".contents *, .header *")) {
+        if (element.getClientRects().length === 0 || element.closest("svg svg, .sm")) continue;
+        if (element.getBoundingClientRect().right <= width + 1) continue;
+        let box = element.parentElement;
+        while (!box.matches(".contents, .header") && !/auto|scroll|hidden/.test(getComputedStyle(box).overflowX)) box = box.parentElement;
+        if (box.matches(".contents, .header")) wide.push(element.outerHTML.slice(0, 100));
+    }
+    return wide.slice(0, 3);"""
+raw_formulas = r"""
+    const texts = document.createTreeWalker(document.querySelector(".contents"), NodeFilter.SHOW_TEXT), raw = [];
+    while (texts.nextNode())
+        if (/\\[(\[]|\\f\$/.test(texts.currentNode.data) && !texts.currentNode.parentElement.closest("code, pre, script, .fragment"))
+            raw.push(texts.currentNode.data.slice(0, 80));
+    return raw;"""
+
+samples = [name for name in pages if re.match(r"(struct|class)", name) and "-members" not in name][:2] + \
+          [name for name in ("annotated.html", "files.html") if name in pages]
+formulas = drawings = 0
+for name in book + samples:
+    for width, mode in ((1280, "light"), (390, "dark")):
+        window(width, mode)
+        open_page(name)
+        for wide in run(sticking_out) if name in book else ():
+            fault(name, f"at {width} px sticks out: {wide}")
+    for raw in run(raw_formulas):
+        fault(name, f"a formula is left raw: {raw}")
+    for image in run("return [...document.images].filter(i => !i.complete || !i.naturalWidth).map(i => i.src)"):
+        fault(name, f"a picture does not show: {image}")
+    formulas += run("return document.querySelectorAll('.MathJax_SVG svg').length")
+    drawings += run("return document.querySelectorAll('svg.book-figure').length")
+    look_at_logs(name)
+
+# The switch between light and dark: the page and its drawings change, and change back, whatever the system prefers.
+colours = """
+    const shape = document.querySelector("svg.book-figure text, svg.book-figure [stroke]:not([stroke=none])");
+    const style = shape ? getComputedStyle(shape) : {fill: 0, stroke: 0};
+    return [document.documentElement.className.match(/(light|dark)-mode/)[0], getComputedStyle(document.body).backgroundColor,
+            style.fill + " " + style.stroke];"""
+with_drawing = next((name for name in book if "book-figure" in (site / name).read_text()), None)
+for system in ("light", "dark"):
+    window(1280, system)
+    open_page(with_drawing or "index.html")
+    before = run(colours)
+    if before[0] != system + "-mode":
+        fault("dark mode", f"a {system} system gets {before[0]}")
+    chromium.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
+    after = run(colours)
+    for what, old, new in zip(("mode", "page", "drawing"), before, after):
+        if old == new and (what != "drawing" or with_drawing):
+            fault("dark mode", f"the switch does not change the {what}: {old}")
+    chromium.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
+    if run(colours) != before:
+        fault("dark mode", "switching twice does not come back")
+
+
+# The search, by keyboard: something is found, and opening it leads to a page that has the word.
+def results():
+    return [element.text for element in chromium.find_elements(By.CSS_SELECTOR, "#search-results a")]
+
+
+window(1280)
+for word in ("Möller", "moller", "rasteriser", "closest_hit"):
+    open_page("index.html")
+    field = chromium.find_element(By.ID, "MSearchField")
+    field.send_keys(word)
+    if not wait("document.querySelectorAll('#search-results a').length"):
+        fault("search", f"finds nothing for {word}")
+        continue
+    field.send_keys(Keys.ENTER)
+    if not wait("!location.pathname.endsWith('index.html') || location.hash"):
+        fault("search", f"{word}: Enter opens nothing")
+    text = run("return document.body.textContent.normalize('NFD').replace(/\\p{Mark}/gu, '').toLowerCase()")
+    if word.replace("ö", "o").lower() not in text:
+        fault("search", f"{word}: the page {chromium.current_url} does not have the word")
+open_page("index.html")
+chromium.find_element(By.ID, "MSearchField").send_keys("xyzzyplugh")
+wait("document.getElementById('search-results').textContent")
+if results():
+    fault("search", "finds what is not in the book")
+look_at_logs("search")
+chromium.quit()
+
+for line in faults:
+    print(line)
+print(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings: {len(faults)} faults")
+sys.exit(1 if faults else 0)

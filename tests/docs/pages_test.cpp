@@ -1,0 +1,77 @@
+#include "docs/pages.hpp"
+
+#include <filesystem>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "docs/finish.hpp"
+#include "docs/search_text.hpp"
+#include "tests/catch.hpp"
+
+using namespace space;
+using namespace space::docs;
+
+namespace {
+
+/// A folder of its own, gone at the end.
+struct Folder {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / "splitting_space_pages_test";
+    Folder() { std::filesystem::create_directories(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+};
+
+std::string picture(const std::string& name) {
+    return "<object type=\"image/svg+xml\" data=\"" + name + "\" style=\"pointer-events: none;\">" + name + "</object>";
+}
+
+}  // namespace
+
+TEST_CASE("a drawing becomes part of its page, without the XML declaration") {
+    const Folder folder;
+    write_file(folder.path / "a.svg", "<?xml version=\"1.0\"?>\n<svg id=\"a\"><g id=\"a-x\"/></svg>\n");
+    CHECK(inline_drawings("<p>" + picture("a.svg") + "</p>", folder.path) ==
+          "<p><svg id=\"a\"><g id=\"a-x\"/></svg>\n</p>");
+}
+
+TEST_CASE("a missing drawing, and two drawings with an id in common, are errors") {
+    const Folder folder;
+    write_file(folder.path / "a.svg", "<svg id=\"a\"/>");
+    write_file(folder.path / "b.svg", "<svg id=\"b\"><g id=\"a\"/></svg>");
+    CHECK_THROWS_AS(inline_drawings(picture("none.svg"), folder.path), Error);
+    CHECK_THROWS_AS(inline_drawings(picture("a.svg") + picture("b.svg"), folder.path), Error);
+    CHECK_THROWS_AS(inline_drawings(picture("a.svg") + picture("a.svg"), folder.path), Error);
+}
+
+TEST_CASE("quoted code loses the indentation that its lines share, and only that") {
+    const std::string open = "<div class=\"fragment\">", close = "</div><!-- fragment -->",
+                      line = "<div class=\"line\">";
+    CHECK(dedent_fragments(open + line + "    if (x)</div>\n" + line + "</div>\n" + line + "        y();</div>\n" +
+                           close) ==
+          open + line + "if (x)</div>\n" + line + "</div>\n" + line + "    y();</div>\n" + close);
+    CHECK(dedent_fragments(open + line + "a</div>" + line + "  b</div>" + close) ==
+          open + line + "a</div>" + line + "  b</div>" + close);
+    CHECK(dedent_fragments("<p>  none</p>") == "<p>  none</p>");
+}
+
+TEST_CASE("a page is found by its sections, with the text that a reader sees") {
+    const auto entries = search_entries(
+        "<div class=\"title\">Naive &amp; slow</div></div>\n<div class=\"contents\">\n<p>A <b>r</b>ay.</p>"
+        "<svg><text>hidden</text></svg><h1><a class=\"anchor\" id=\"idea\"></a>\nIdea</h1><p>M\u00f6ller</p>"
+        "<h2 class=\"memtitle\"><span class=\"permalink\"><a href=\"#a1\">&#9670;&nbsp;</a></span>hit()</h2><p>x &lt; "
+        "y</p>"
+        "</div><!-- contents -->",
+        "p.html");
+    REQUIRE(entries.size() == 3);
+    CHECK(entries[0].title == "Naive & slow");
+    CHECK(entries[0].text.find("ray.") != std::string::npos);
+    CHECK(entries[0].text.find("hidden") == std::string::npos);
+    CHECK(entries[1].title == "Idea");
+    CHECK(entries[1].url == "p.html#idea");
+    CHECK(entries[2].title == "hit()");
+    CHECK(entries[2].url == "p.html#a1");
+    CHECK(entries[2].text.find("x < y") != std::string::npos);
+}
+
+TEST_CASE("text never turns into markup") {
+    CHECK(html("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
+}

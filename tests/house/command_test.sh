@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# command_test.sh ROOT [check]: tries ./book as readers and clumsy fingers do, in a copy of the project whose path has
+# spaces, from another directory. With `check` also the journey of an exercise: check, hint, solution, reset.
+set -euo pipefail
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+copy="$tree/a copy of the book"
+mkdir "$copy"
+(cd "$1" && cp -r book CMakeLists.txt CMakePresets.json common chapters docs tests "$copy")
+cd "$tree"
+failures=0
+wrong() { printf '%s\n' "$1" && failures=1; }
+
+# ends CODE PATTERN ARGUMENT...: ./book with the arguments ends with the code, and its output holds the pattern;
+# wrong use is told in one line
+ends() {
+    local code=$1 pattern=$2 result=0
+    shift 2
+    "$copy/book" "$@" >"$tree/said.txt" 2>&1 </dev/null || result=$?
+    ((result == code)) || wrong "./book $*: exit code $result, not $code: $(<"$tree/said.txt")"
+    grep -qE -- "$pattern" "$tree/said.txt" || wrong "./book $*: no '$pattern' in: $(<"$tree/said.txt")"
+    ((code != 2)) || (($(wc -l <"$tree/said.txt") == 1)) || wrong "./book $*: more than one line: $(<"$tree/said.txt")"
+    ! grep -q $'\033' "$tree/said.txt" || wrong "./book $*: colours in a file"
+}
+
+ends 0 'book run' help
+ends 0 'book run' --help
+ends 0 'book run'
+ends 2 'nonsense: there is no such command' nonsense
+ends 2 'chapter 99: there is none; there are: 1' run 99
+ends 2 'chapter x: there is none' run x
+ends 2 'unknown option --fast' run --fast
+ends 2 'wants a full run' run --quick --update
+ends 2 'chapter 99: there is none' bench 99
+ends 2 'address or thread' test --sanitize
+ends 2 'address or thread' test --sanitize memory
+ends 2 'unknown argument 1' test 1
+ends 2 'exercise 9.9: there is none' exercise check 9.9
+ends 2 'such as 1.2' exercise check '1.*'
+ends 2 'such as 1.2' exercise hint ''
+ends 2 'give one exercise' exercise check
+ends 2 'give one exercise' exercise check 1.1 1.2
+ends 2 'there is list' exercise solve 1.1
+ends 2 'takes no more' docs 1
+ends 2 'takes no more' doctor 1
+ends 2 'unknown option --all' figures --all
+ends 0 'g\+\+ ' doctor
+
+# Nothing is installed, and what is missing is named, with --no-install.
+sed -i 's|<fmt/format.h>|<no/such/header.h>|' "$copy/common/scripts/packages.txt"
+ends 3 'required and not there: libfmt-dev' run 1 --no-install
+ends 3 'something required is missing' doctor
+cp "$1/common/scripts/packages.txt" "$copy/common/scripts"
+
+stub=$(cd "$copy" && find chapters -path '*/ch01_*/exercises/ex01_*.hpp' | head -n 1)
+if [[ -n $stub ]]; then
+    ends 0 '^1\.1 .* of 3 .*not checked yet' exercise
+    ends 0 'Hint 1 of 3' exercise hint 1.1
+    ! grep -q 'Hint 2' "$tree/said.txt" || wrong 'the first hint tells the second'
+    ends 0 'Hint 2 of 3' exercise hint 1.01
+    ends 0 'Hint 3 of 3' exercise hint 01.1
+    ends 0 'Hint 3 of 3' exercise hint 1.1
+    ends 0 'Exercise 1.1, solution' exercise solution 1.1
+    ends 3 'git history, and there is none' exercise reset 1.1
+    (cd "$copy" && git init -q . && git add chapters && git -c user.name=a -c user.email=b commit -qm copy)
+    echo '// changed' >>"$copy/$stub"
+    ends 0 'your version is kept in build/exercises/ex01' exercise reset 1.1
+    cmp -s "$1/$stub" "$copy/$stub" || cmp -s <(git -C "$copy" show "HEAD:$stub") "$copy/$stub" || wrong 'reset did not restore the stub'
+    ends 0 'is as it was' exercise reset 1.1
+fi
+
+if [[ ${2:-} == check && -n $stub ]]; then
+    cp "$1/$stub" "$copy/$stub"
+    if git -C "$1" show "HEAD:$stub" >"$tree/stub" 2>/dev/null; then cp "$tree/stub" "$copy/$stub"; fi
+    ends 1 'is not solved yet' exercise check 1.1 --no-install
+    ends 0 '^1\.1 .*unsolved' exercise
+    echo 'this is no C++' >>"$copy/$stub"
+    ends 1 'does not compile yet' exercise check 1.1
+    ends 0 '^1\.1 .*not checked yet' exercise
+    { head -n 3 "$1/$stub" && cat "$copy"/chapters/ch01_*/solutions/ex01_*.hpp; } >"$copy/$stub"
+    ends 0 'is solved' exercise check 1.1
+    ends 0 '^1\.1 .*  solved' exercise
+    echo '// one more idea' >>"$copy/$stub"
+    ends 0 '^1\.1 .*changed since its check' exercise
+fi
+exit $failures

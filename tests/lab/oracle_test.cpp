@@ -1,0 +1,92 @@
+// The lab's answers, through its files, against exact arithmetic: every structure, random rays.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+
+#include "chapters/ch12_comparison/lab.hpp"
+#include "common/mesh.hpp"
+#include "common/progress.hpp"
+#include "common/report.hpp"
+#include "common/scene.hpp"
+#include "tests/catch.hpp"
+#include "tests/lab/files.hpp"
+#include "tests/lab/process.hpp"
+#include "tests/oracle/compare.hpp"
+#include "tests/suite/test_rays.hpp"
+
+using namespace space;
+
+namespace {
+
+const std::filesystem::path bunny = "/usr/share/glmark2/models/bunny.obj";  // Debian's glmark2-data
+
+std::optional<Hit> answer(const HitRecord& record) {
+    if (!record.is_hit()) return std::nullopt;
+    return Hit{.t = record.t, .triangle = record.triangle, .u = record.u, .v = record.v};
+}
+
+/// Runs the lab with every structure on `count` random rays, and requires that no answer is wrong.
+void require_agreement(const std::string& mesh_option, std::span<const Triangle> triangles, std::size_t count) {
+    const Workbench bench;
+    RayMaker maker(triangles, 2024);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) ray = maker.random().ray;
+    write_rays(bench / "rays", rays);
+    const ExactOracle oracle = ExactOracle::build(triangles);
+    for (const Structure& structure : structures()) {
+        const Ended ended =
+            run(fmt::format("{} lab {} --rays {} --structure {} --repeat 1 --hits {}", LAB_PROGRAM, mesh_option,
+                            (bench / "rays").string(), structure.name, (bench / "hits").string()));
+        INFO(ended.err);
+        REQUIRE(ended.code == 0);
+        const std::vector<HitRecord> hits = read_hits(bench / "hits");
+        REQUIRE(hits.size() == rays.size());
+        Tally tally;
+        std::size_t hit_count = 0;
+        Progress progress(mesh_option + ": exact oracle", count);
+        for (std::size_t i = 0; i < count; ++i) {
+            tally.add(compare(oracle, rays[i], answer(hits[i])));
+            hit_count += hits[i].is_hit();
+            progress.step();
+        }
+        fmt::print("{}, {}: {} triangles, {} rays, {} hits: {}\n", mesh_option, structure.name,
+                   with_commas(triangles.size()), with_commas(count), with_commas(hit_count), tally.text());
+        INFO(mesh_option << ", " << structure.name << ": " << tally.text());
+        CHECK(tally.wrong() == 0);
+        CHECK(tally.examined() == count);
+        CHECK(tally.skipped == 0);
+        CHECK(hit_count > count / 100);  // the rays are worth asking
+    }
+}
+
+void require_agreement_on_scenes(std::size_t rays_per_scene) {
+    for (const char* scene : {"room", "sphereflake", "lattice", "soup_uneven", "stadium"})
+        require_agreement(fmt::format("--scene {}", scene), make_scene(scene).mesh.triangles(), rays_per_scene);
+}
+
+void require_agreement_on_bunny(std::size_t rays) {
+    if (!std::filesystem::exists(bunny)) {
+        WARN("skipped: " << bunny << " is not there (package glmark2-data)");
+        return;
+    }
+    require_agreement("--mesh " + bunny.string(), load_mesh(bunny).triangles(), rays);
+}
+
+}  // namespace
+
+TEST_CASE("every structure of the lab gives the exact answers on five scenes") {
+    require_agreement_on_scenes(400);
+}
+TEST_CASE("every structure of the lab gives the exact answers on the bunny") {
+    require_agreement_on_bunny(200);
+}
+
+// By hand, in minutes: the target lab_oracle_big.
+TEST_CASE("100,000 rays over five scenes, every structure", "[.big]") {
+    require_agreement_on_scenes(20'000);
+}
+TEST_CASE("100,000 rays on the bunny, every structure", "[.big]") {
+    require_agreement_on_bunny(100'000);
+}
