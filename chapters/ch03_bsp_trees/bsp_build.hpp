@@ -48,7 +48,7 @@ struct NoBspObserver {
     template <int D>
     void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> /*polygon*/, std::int32_t /*node*/, std::int32_t /*parent*/, bool /*in front of it*/) {}
     template <int D>
-    void placed(const Fragment<D>&, Place) {}
+    void placed(const Fragment<D>&, Side) {}
     template <int D>
     void cut(const Fragment<D>& /*whole*/, const Fragment<D>& /*front*/, const Fragment<D>& /*back*/) {}
 };
@@ -131,13 +131,13 @@ class BspBuilder {
         const Splitter<D> cutter(tree_.polygons, tree_.planes, config_.grade, thickness_);
         std::vector<int> sides;
         for (Fragment<D>& fragment : set) {
-            const Place place = place_of(cutter, fragment, splitter, number, sides);
+            const Side place = place_of(cutter, fragment, splitter, number, sides);
             observer_.placed(fragment, place);
             switch (place) {
-                case Place::front: parts.front.push_back(std::move(fragment)); break;
-                case Place::back: parts.back.push_back(std::move(fragment)); break;
-                case Place::on: tree_.fragments.push_back(std::move(fragment)); break;
-                case Place::across: cut(cutter, fragment, sides, number, parts); break;
+                case Side::front: parts.front.push_back(std::move(fragment)); break;
+                case Side::back: parts.back.push_back(std::move(fragment)); break;
+                case Side::on: tree_.fragments.push_back(std::move(fragment)); break;
+                case Side::across: cut(cutter, fragment, sides, number, parts); break;
             }
         }
         const auto last = static_cast<std::uint32_t>(tree_.fragments.size());
@@ -147,9 +147,9 @@ class BspBuilder {
     // [make_node]
 
     /// A piece of the splitter's own polygon lies on its plane, whatever rounding says.
-    static Place place_of(const Splitter<D>& splitter, const Fragment<D>& fragment, const Candidate& candidate,
+    static Side place_of(const Splitter<D>& splitter, const Fragment<D>& fragment, const Candidate& candidate,
                           std::uint32_t plane, std::vector<int>& sides) {
-        if (fragment.polygon == candidate.polygon) return Place::on;
+        if (fragment.polygon == candidate.polygon) return Side::on;
         splitter.classify(fragment, plane, sides);
         return Splitter<D>::place(sides);
     }
@@ -222,8 +222,8 @@ class BspBuilder {
                                   config_.grade == Grade::exact ? 0.0 : thickness_);
         Tally tally;
         for (const Fragment<D>& fragment : set) {
-            const Place place = place_of(counter, fragment, candidate, 0, sides_);
-            ++(place == Place::front ? tally.front : place == Place::back ? tally.back : place == Place::on ? tally.on : tally.cuts);
+            const Side place = place_of(counter, fragment, candidate, 0, sides_);
+            ++(place == Side::front ? tally.front : place == Side::back ? tally.back : place == Side::on ? tally.on : tally.cuts);
         }
         return tally;
     }

@@ -70,7 +70,8 @@ class Bsp {
             std::int32_t node;
             double enter, leave;  ///< the part of the ray in the node's cell, never too short
         };
-        std::vector<Task> tasks{{0, ray.tmin, ray.tmax}};
+        // What counts is t rounded to float: a hit may lie half a place outside the interval.
+        std::vector<Task> tasks{{0, std::nextafter(ray.tmin, -infinity), std::nextafter(ray.tmax, infinity)}};
         double limit = infinity;
         while (!tasks.empty()) {
             auto [index, enter, leave] = tasks.back();

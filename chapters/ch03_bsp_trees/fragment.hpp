@@ -21,7 +21,7 @@ enum class Grade {
 };
 
 /// Where a fragment lies, seen from a plane.
-enum class Place { front, back, on, across };
+enum class Side { front, back, on, across };
 
 template <int D>
 struct Corner {
@@ -59,10 +59,10 @@ class Splitter {
     }
 
     // [place]
-    static Place place(std::span<const int> sides) {
+    static Side place(std::span<const int> sides) {
         const bool front = std::find(sides.begin(), sides.end(), 1) != sides.end();
         const bool back = std::find(sides.begin(), sides.end(), -1) != sides.end();
-        return front && back ? Place::across : front ? Place::front : back ? Place::back : Place::on;
+        return front && back ? Side::across : front ? Side::front : back ? Side::back : Side::on;
     }
     // [place]
 
