@@ -1,0 +1,100 @@
+/// @file
+/// BSP trees (Fuchs, Kedem & Naylor 1980) for segments in the plane and polygons in space: what a tree is, and what can be
+/// asked of it. bsp_build.hpp makes one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
+namespace space {
+
+/// What lies at a place that no polygon passes through.
+enum class Cell { outside, inside, boundary };
+
+template <int D>
+struct BspTree {
+    static constexpr std::int32_t none = -1;
+
+    /// An inner node: everything in front of its plane is below `front`, everything behind it below `back`; what lies in
+    /// the plane, facing either way, is its own. A child that is none is an empty cell.
+    struct Node {
+        std::uint32_t plane;
+        std::int32_t front = none, back = none;
+        std::uint32_t first = 0, count = 0;  ///< of the tree's fragments
+    };
+
+    std::vector<Corners<D>> polygons;  ///< the input
+    std::vector<SplitPlane<D>> planes;
+    std::vector<Node> nodes;  ///< the root first; none for no polygons
+    std::vector<Fragment<D>> fragments;
+
+    // [in_order]
+    /// Painter's order (Fuchs, Kedem & Naylor 1980, section 3): calls draw(fragment) from the farthest to the nearest as
+    /// seen from the eye. What lies behind a plane, seen from the eye, can't cover what lies before it. The stack
+    /// is our own: a tree may be deeper than the machine's stack.
+    template <class Draw>
+    void back_to_front(const Point<D>& eye, const Draw& draw) const {
+        struct Task {
+            std::int32_t node;
+            bool own;  ///< only the node's own fragments
+        };
+        std::vector<Task> tasks{{nodes.empty() ? none : 0, false}};
+        while (!tasks.empty()) {
+            const auto [index, own] = tasks.back();
+            tasks.pop_back();
+            if (index == none) continue;
+            const Node& node = nodes[static_cast<std::size_t>(index)];
+            if (own) {
+                for (std::uint32_t i = 0; i < node.count; ++i) draw(fragments[node.first + i]);
+                continue;
+            }
+            const bool in_front = side_of(eye, node) >= 0;
+            tasks.push_back({in_front ? node.front : node.back, false});
+            tasks.push_back({index, true});
+            tasks.push_back({in_front ? node.back : node.front, false});
+        }
+    }
+    // [in_order]
+
+    // [locate]
+    /// Inside or outside of the closed mesh that the tree was built from, front sides outwards; boundary for a point on a
+    /// plane of the path that has fragments through it. A cell in front of the last polygon's plane touches
+    /// that polygon's front.
+    Cell locate(const Point<D>& p) const {
+        Cell last = Cell::outside;
+        for (std::int32_t index = nodes.empty() ? none : 0; index != none;) {
+            const Node& node = nodes[static_cast<std::size_t>(index)];
+            const int side = side_of(p, node);
+            if (side == 0) return Cell::boundary;
+            last = side > 0 ? Cell::outside : Cell::inside;
+            index = side > 0 ? node.front : node.back;
+        }
+        return last;
+    }
+    // [locate]
+
+    /// Exactly: 1 in front of the node's plane, 0 on it, -1 behind.
+    int side_of(const Point<D>& p, const Node& node) const {
+        const SplitPlane<D>& plane = planes[node.plane];
+        if (const auto side = side_filter(plane, DoublePoint<D>(p), 0.0)) return *side;
+        return exact_side<D>(plane.through, p);
+    }
+
+    /// Edges from the root to the deepest node; 0 for a root alone. A node stands before its children.
+    std::size_t depth() const {
+        std::vector<std::size_t> level(nodes.size());
+        std::size_t deepest = 0;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (const std::int32_t child : {nodes[i].front, nodes[i].back})
+                if (child != none) {
+                    level[static_cast<std::size_t>(child)] = level[i] + 1;
+                    deepest = std::max(deepest, level[i] + 1);
+                }
+        return deepest;
+    }
+};
+
+}  // namespace space

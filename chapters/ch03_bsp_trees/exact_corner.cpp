@@ -1,0 +1,196 @@
+#include "chapters/ch03_bsp_trees/exact_corner.hpp"
+
+#include <gmpxx.h>
+
+namespace space {
+namespace {
+
+/// Every float is a whole number of 2^-149.
+constexpr int unit_exponent = 149;
+
+mpz_class units(float x) { return mpz_class(std::ldexp(static_cast<double>(x), unit_exponent)); }
+
+template <int D>
+using Whole = std::array<mpz_class, D>;
+
+template <int D>
+Whole<D> units(const Point<D>& p) {
+    Whole<D> result;
+    for (int axis = 0; axis < D; ++axis) result[axis] = units(p[axis]);
+    return result;
+}
+template <int D>
+Whole<D> operator-(const Whole<D>& a, const Whole<D>& b) {
+    Whole<D> result;
+    for (int axis = 0; axis < D; ++axis) result[axis] = a[axis] - b[axis];
+    return result;
+}
+template <int D>
+mpz_class dot(const Whole<D>& a, const Whole<D>& b) {
+    mpz_class sum = a[0] * b[0];
+    for (int axis = 1; axis < D; ++axis) sum += a[axis] * b[axis];
+    return sum;
+}
+Whole<3> cross(const Whole<3>& a, const Whole<3>& b) {
+    return {mpz_class(a[1] * b[2] - a[2] * b[1]), mpz_class(a[2] * b[0] - a[0] * b[2]), mpz_class(a[0] * b[1] - a[1] * b[0])};
+}
+
+/// normal . p = offset on the plane, positive in front.
+template <int D>
+struct WholePlane {
+    Whole<D> normal;
+    mpz_class offset;
+
+    explicit WholePlane(const Corners<D>& through) {
+        const Whole<D> a = units<D>(through[0]), ab = operator-<D>(units<D>(through[1]), a);
+        if constexpr (D == 3)
+            normal = cross(ab, operator-<D>(units<D>(through[2]), a));
+        else
+            normal = {mpz_class(-ab[1]), ab[0]};
+        offset = dot<D>(normal, a);
+    }
+    mpz_class distance(const Whole<D>& p) const { return dot<D>(normal, p) - offset; }
+};
+
+/// The point numerator / denominator, in units.
+template <int D>
+struct Homogeneous {
+    Whole<D> numerator;
+    mpz_class denominator;
+};
+
+/// Where the line through p and q meets the plane: weighted by the distances of the two.
+template <int D>
+Homogeneous<D> meet(const Whole<D>& p, const Whole<D>& q, const WholePlane<D>& plane) {
+    const mpz_class of_p = plane.distance(p), of_q = plane.distance(q);
+    Homogeneous<D> result;
+    for (int axis = 0; axis < D; ++axis) result.numerator[axis] = q[axis] * of_p - p[axis] * of_q;
+    result.denominator = of_p - of_q;
+    return result;
+}
+
+/// Cramer's rule.
+Homogeneous<3> meet(const WholePlane<3>& a, const WholePlane<3>& b, const WholePlane<3>& c) {
+    const Whole<3> bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal), ab = cross(a.normal, b.normal);
+    Homogeneous<3> result;
+    for (int axis = 0; axis < 3; ++axis)
+        result.numerator[axis] = a.offset * bc[axis] + b.offset * ca[axis] + c.offset * ab[axis];
+    result.denominator = dot<3>(a.normal, bc);
+    return result;
+}
+
+Homogeneous<3> point_of(const Meet3& m) {
+    const Corners<3>& polygon = *m.polygon;
+    const auto line_meets = [&](int edge, const Corners<3>& plane) {
+        return meet<3>(units<3>(polygon[edge]), units<3>(polygon[(edge + 1) % 3]), WholePlane<3>(plane));
+    };
+    if (m.first_edge >= 0 && m.second_edge >= 0) {  // the corner that the two edges share
+        const int corner = (m.first_edge + 1) % 3 == m.second_edge ? m.second_edge : m.first_edge;
+        return {units<3>(polygon[corner]), mpz_class(1)};
+    }
+    if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
+    if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
+    return meet(WholePlane<3>(polygon), WholePlane<3>(*m.first_plane), WholePlane<3>(*m.second_plane));
+}
+
+Homogeneous<2> point_of(const Meet2& m) {
+    return meet<2>(units<2>((*m.polygon)[0]), units<2>((*m.polygon)[1]), WholePlane<2>(*m.line));
+}
+
+template <int D>
+int side(const Corners<D>& plane, const Homogeneous<D>& point) {
+    const WholePlane<D> exact(plane);
+    const mpz_class distance = dot<D>(exact.normal, point.numerator) - exact.offset * point.denominator;
+    return sgn(distance) * sgn(point.denominator);
+}
+
+template <int D>
+Approximation<D> rounded(const Homogeneous<D>& point) {
+    long denominator_exponent = 0;
+    const double denominator = mpz_get_d_2exp(&denominator_exponent, point.denominator.get_mpz_t());
+    Approximation<D> result{};
+    for (int axis = 0; axis < D; ++axis) {
+        long exponent = 0;
+        const double numerator = mpz_get_d_2exp(&exponent, point.numerator[axis].get_mpz_t());
+        const auto scale = static_cast<int>(exponent - denominator_exponent) - unit_exponent;
+        result.at[axis] = std::ldexp(numerator / denominator, scale);
+        // Two truncations to 53 bits and a rounded quotient: less than six half places. What underflows is below 2^-1000.
+        result.error = std::max(result.error, 6.0 * 0x1p-53 * std::abs(result.at[axis]) + 0x1p-1000);
+    }
+    return result;
+}
+
+/// u = 2^-53; sixteen of them cover the seven to eleven roundings of a distance or a determinant here, and of its bound.
+constexpr double roundings = 16.0 * 0x1p-53;
+/// A double answer is good enough where its error is below this part of the distances that it was made from: the filters that
+/// use it then still decide all but one corner in a million.
+constexpr double good_enough = 0x1p-30;
+
+template <int D>
+double one_norm(const DoublePoint<D>& v) { return SplitPlane<D>::one_norm(v); }
+
+/// Where the line through p and q meets the plane, in double.
+template <int D>
+std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>& q, const SplitPlane<D>& plane) {
+    const DoublePoint<D> start(p), way = DoublePoint<D>(q) - start, anchor(plane.through[0]);
+    const double of_p = plane.distance(start), of_q = plane.distance(DoublePoint<D>(q)), difference = of_p - of_q;
+    const double p_error = roundings * plane.size * one_norm<D>(start - anchor);
+    const double difference_error = p_error + roundings * plane.size * one_norm<D>(DoublePoint<D>(q) - anchor);
+    const double left = std::abs(difference) - difference_error;
+    if (!(left > 0.0)) return std::nullopt;
+    const double s = of_p / difference, s_error = (p_error + std::abs(s) * difference_error) / left;
+    if (!(s_error < good_enough)) return std::nullopt;
+    return Approximation<D>{start + s * way, (s_error + roundings) * one_norm<D>(way) + roundings * one_norm<D>(start)};
+}
+
+/// Where three planes meet, by Cramer's rule about a point nearby, in double.
+std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const SplitPlane<3>& b, const SplitPlane<3>& c) {
+    const Double3 near(a.through[0]);
+    const Double3 bc = glm::cross(b.normal, c.normal), ca = glm::cross(c.normal, a.normal), ab = glm::cross(a.normal, b.normal);
+    const Double3 from_b = Double3(b.through[0]) - near, from_c = Double3(c.through[0]) - near;  // a's offset is 0
+    const Double3 numerator = glm::dot(b.normal, from_b) * ca + glm::dot(c.normal, from_c) * ab;
+    const double denominator = glm::dot(a.normal, bc);
+    const double volume = 2.0 * roundings * a.size * b.size * c.size, reach = one_norm<3>(from_b) + one_norm<3>(from_c);
+    const double left = std::abs(denominator) - volume;
+    if (!(left > 0.0)) return std::nullopt;
+    const Double3 from_near = numerator / denominator;
+    const double error = volume * (reach + one_norm<3>(from_near)) / left;
+    if (!(error < good_enough * (reach + one_norm<3>(from_near)))) return std::nullopt;
+    return Approximation<3>{near + from_near, error + roundings * (one_norm<3>(near) + one_norm<3>(from_near))};
+}
+
+std::optional<Approximation<3>> in_double(const Meet3& m) {
+    const auto line_meets = [&](int edge, const Corners<3>& plane) {
+        return meet_in_double<3>((*m.polygon)[edge], (*m.polygon)[(edge + 1) % 3], SplitPlane<3>(plane));
+    };
+    if (m.first_edge >= 0 && m.second_edge >= 0) return std::nullopt;
+    if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
+    if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
+    return meet_in_double(SplitPlane<3>(*m.polygon), SplitPlane<3>(*m.first_plane), SplitPlane<3>(*m.second_plane));
+}
+std::optional<Approximation<2>> in_double(const Meet2& m) {
+    return meet_in_double<2>((*m.polygon)[0], (*m.polygon)[1], SplitPlane<2>(*m.line));
+}
+
+}  // namespace
+
+int exact_side(const Corners<3>& plane, const Meet3& meet) { return side<3>(plane, point_of(meet)); }
+int exact_side(const Corners<2>& line, const Meet2& meet) { return side<2>(line, point_of(meet)); }
+
+template <int D>
+int exact_side(const Corners<D>& plane, const Point<D>& point) {
+    return sgn(WholePlane<D>(plane).distance(units<D>(point)));
+}
+template int exact_side<2>(const Corners<2>&, const Point<2>&);
+template int exact_side<3>(const Corners<3>&, const Point<3>&);
+
+Approximation<3> approximate(const Meet3& meet) {
+    const auto quick = in_double(meet);
+    return quick ? *quick : rounded<3>(point_of(meet));
+}
+Approximation<2> approximate(const Meet2& meet) {
+    const auto quick = in_double(meet);
+    return quick ? *quick : rounded<2>(point_of(meet));
+}
+
+}  // namespace space

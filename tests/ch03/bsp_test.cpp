@@ -1,0 +1,98 @@
+#include "chapters/ch03_bsp_trees/bsp_rays.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "common/scene.hpp"
+#include "tests/suite/accelerator_suite.hpp"
+
+using namespace space;
+
+namespace {
+
+/// The names of the segments A .. G in each splitter's sets.
+struct Sets {
+    std::string splitters, cuts;
+    std::vector<std::string> front, back;  ///< of each splitter
+
+    static char name(std::uint32_t polygon) { return static_cast<char>('A' + static_cast<int>(polygon)); }
+    template <int D>
+    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t, std::int32_t, bool) {
+        splitters += name(*polygon);
+        front.emplace_back();
+        back.emplace_back();
+    }
+    template <int D>
+    void placed(const Fragment<D>& fragment, Side side) {
+        if (side == Side::front || side == Side::across) front.back() += name(fragment.polygon);
+        if (side == Side::back || side == Side::across) back.back() += name(fragment.polygon);
+    }
+    template <int D>
+    void cut(const Fragment<D>& whole, const Fragment<D>&, const Fragment<D>&) {
+        cuts += name(whole.polygon);
+    }
+};
+
+std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) {
+    Pcg32 random(seed);
+    const auto point = [&](float s) { return Point3(random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s)); };
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Point3 centre = point(1.0f);
+        triangles.push_back({centre + point(size), centre + point(size), centre + point(size)});
+    }
+    return triangles;
+}
+
+}  // namespace
+
+TEST_CASE("the splitters G, E, B, A give the sets and the tree that Heinonen16 prints") {
+    std::vector<Corners<2>> segments;
+    for (const Segment& segment : heinonen_segments()) segments.push_back(corners(segment));
+    const std::uint32_t order[] = {6, 4, 1, 0};
+    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
+        Sets sets;
+        const BspTree<2> tree =
+            BspBuilder<2, Sets&>::build(segments, {.splitter = SplitterChoice::first, .grade = grade, .order = order}, sets);
+        CHECK(sets.splitters.front() == 'G');
+        CHECK(sets.front[0] == "ABC");
+        CHECK(sets.back[0] == "DEF");
+        CHECK(sets.cuts == "C");
+        const auto of = [&](char name) { return static_cast<std::size_t>(sets.splitters.find(name)); };
+        CHECK(sets.front[of('E')] + sets.back[of('E')] == "DF");
+        CHECK(sets.front[of('B')] == "AC");
+        CHECK(sets.back[of('B')] == "C");
+        CHECK(tree.fragments.size() == 8);
+        CHECK(tree.nodes.size() == 8);
+    }
+}
+
+TEST_CASE("the suite: BSP tree") {
+    check_accelerator<Bsp<>>("bsp", [](std::span<const Triangle> t) { return Bsp<>::build(t); });
+}
+
+TEST_CASE("every grade and choice of splitters gives the naive loop's hits on random triangles") {
+    const std::vector<Triangle> triangles = soup(60, 0.6f, 5);
+    const auto naive = Naive<FilteredExact>::build(triangles);
+    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})
+        for (const SplitterChoice splitter : {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced,
+                                              SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free})
+            for (const Straddlers straddlers : {Straddlers::split, Straddlers::share}) {
+                const auto bsp = Bsp<FilteredExact>::build(
+                    triangles, {.splitter = splitter, .straddlers = straddlers, .grade = grade, .max_fragments = 200'000});
+                Pcg32 random(9);
+                int wrong = 0;
+                for (int i = 0; i < 200; ++i) {
+                    const Point3 origin(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
+                    const Triangle& aim = triangles[random.below(60)];
+                    const Ray ray{origin, (i % 2 ? aim.a : (aim.a + aim.b + aim.c) / 3.0f) - origin};
+                    wrong += closest_hit(bsp, ray) != closest_hit(naive, ray);
+                }
+                CHECK(wrong == 0);
+            }
+}
+
+TEST_CASE("a tree that would have more fragments than allowed is refused with one line") {
+    CHECK_THROWS_AS(Bsp<>::build(soup(100, 1.0f, 6), {.max_fragments = 200}), Error);
+}
