@@ -262,17 +262,47 @@ class Script {
         }
     }
 
-    /// Above bars; beside points, on the side where there is room.
+    /// Above bars; beside points, where the least lies in the way: to the right, to the left, above, below.
     void label_points() {
+        struct Box {
+            double left, top, right, bottom;
+            double overlap(const Box& other) const {
+                return std::max(0.0, std::min(right, other.right) - std::max(left, other.left)) *
+                       std::max(0.0, std::min(bottom, other.bottom) - std::max(top, other.top));
+            }
+        };
+        std::vector<Box> taken;  // by points and by labels
+        if (!bars())
+            for (const Points& series : points_)
+                for (std::size_t i = 0; i < series.x.size(); ++i) {
+                    const double x = x_at(series.x[i]), y = y_at(series.y[i]);
+                    taken.push_back({x - 7, y - 7, x + 7, y + 7});
+                }
         for (std::size_t s = 0; s < points_.size(); ++s)
             for (std::size_t i = 0; i < points_[s].x.size(); ++i) {
-                const double x = points_[s].x[i], y = y_at(points_[s].y[i]);
-                const bool at_right = x_.fraction(x) < 0.6;
-                if (bars())
-                    label(points_[s].labels[i], x_at(x + offset(s)), y - 10, "center", Ink::ink);
-                else
-                    label(points_[s].labels[i], x_at(x) + (at_right ? text_gap : -text_gap), y + text_size / 3,
-                          at_right ? "left" : "right", Ink::ink);
+                const std::string& text = points_[s].labels[i];
+                const double y = y_at(points_[s].y[i]);
+                if (bars()) {
+                    label(text, x_at(points_[s].x[i] + offset(s)), y - 10, "center", Ink::ink);
+                    continue;
+                }
+                if (text.empty()) continue;
+                const double x = x_at(points_[s].x[i]), width = character_width * static_cast<double>(text.size());
+                const double gap = text_gap, half = 0.5 * text_size;
+                const std::array<Box, 4> places{{{x + gap, y - half, x + gap + width, y + half},
+                                                 {x - gap - width, y - half, x - gap, y + half},
+                                                 {x - width / 2, y - gap - 2 * half, x + width / 2, y - gap},
+                                                 {x - width / 2, y + gap, x + width / 2, y + gap + 2 * half}}};
+                const auto in_the_way = [&](const Box& box) {
+                    const Box picture{left_, 0, right_ + gap, bottom_};
+                    double area = (box.right - box.left) * (box.bottom - box.top) - box.overlap(picture);
+                    for (const Box& other : taken) area += box.overlap(other);
+                    return area;
+                };
+                const Box& best = *std::min_element(
+                    places.begin(), places.end(), [&](const Box& p, const Box& q) { return in_the_way(p) < in_the_way(q); });
+                taken.push_back(best);
+                label(text, best.left, best.bottom - half + text_size / 3, "left", Ink::ink);
             }
     }
 

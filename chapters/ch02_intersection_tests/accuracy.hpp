@@ -59,6 +59,7 @@ struct StageCounts {
     void decided(Stage stage) { ++count[static_cast<std::size_t>(stage)]; }
 };
 
+/// What the triangle tests decide wrongly on one class of inputs.
 struct TriangleAccuracy {
     std::string input;
     std::uint64_t pairs = 0, exact_hits = 0;
@@ -69,6 +70,7 @@ struct TriangleAccuracy {
 /// FilteredExact is the truth here; the chapter's tests hold it against CGAL's exact kernel.
 TriangleAccuracy triangle_accuracy(const TriangleInput& input, std::uint64_t pairs, std::uint64_t seed, unsigned threads);
 
+/// Rays from inside a closed mesh that hit none of its triangles.
 struct Leaks {
     std::string mesh;
     std::uint64_t rays = 0;  ///< that hit the mesh in exact arithmetic
@@ -102,6 +104,7 @@ RootAccuracy root_accuracy(const RootForm& form, std::uint32_t stride, std::uint
 
 // --- boxes ---
 
+/// What the box tests decide wrongly on the same pairs.
 struct BoxAccuracy {
     std::uint64_t pairs = 0, exact_hits = 0;
     std::array<Wrong, box_test_count> wrong;  ///< in the order of box_tests
@@ -128,6 +131,7 @@ OrientedBoxes oriented_box_accuracy(std::uint64_t rays, std::uint64_t seed);
 
 // --- spheres ---
 
+/// What the sphere tests decide wrongly at one distance.
 struct SphereAccuracy {
     double distance = 0;  ///< of the ray's origin from the centre, in radii
     std::uint64_t pairs = 0, exact_hits = 0;
@@ -148,6 +152,7 @@ SpheresBehind spheres_behind(std::uint64_t rays, std::uint64_t seed);
 
 // --- origins of secondary rays ---
 
+/// A rule for where a secondary ray starts.
 struct OriginWay {
     std::string_view name;
     /// Where the ray in direction `next` starts that leaves the triangle which `ray` has hit; n points to its side.

@@ -12,6 +12,7 @@
 
 namespace space {
 
+/// A closed interval of t.
 struct Interval {
     float enter, leave;  ///< the part of [tmin, tmax] in the box
 };
@@ -130,6 +131,7 @@ struct SlabConservative {
     static constexpr float lengthen = 1.0f + 6.0f * 0x1p-24f;
     static constexpr float tiny = 2.0f * std::numeric_limits<float>::denorm_min();
 
+    /// The ray with its reciprocals, for many boxes.
     struct Prepared : PreparedBoxRay {
         Vector3 far_inverse;  ///< and `inverse` is that for near planes
         Vector3 direction;

@@ -29,6 +29,7 @@ struct Expansion {
     }
 };
 
+/// A number as the unevaluated sum of two doubles.
 struct TwoParts {
     double high, low;
 };

@@ -11,6 +11,7 @@
 
 namespace space {
 
+/// What one test makes of a scene far from the origin.
 struct FarPicture {
     /// What wrong pixels are filled with: the palette's vermillion.
     static constexpr Color mark{0.665f, 0.112f, 0.0f};

@@ -14,6 +14,7 @@ namespace space {
 /// Which stage decided: for the chapter's table of shares.
 enum class Stage { filter, integers, expansions };
 
+/// Asks for no record of the stages.
 struct NoStages {
     static constexpr void decided(Stage) {}
 };

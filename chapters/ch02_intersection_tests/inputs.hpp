@@ -40,6 +40,7 @@ struct TriangleInput {
 /// The classes of the chapter's tables.
 const std::vector<TriangleInput>& triangle_inputs();
 
+/// An input of the triangle tests.
 struct RayAndTriangle {
     Ray ray;
     Triangle triangle;
@@ -52,6 +53,7 @@ TriangleMesh bumpy_ball(int levels);
 
 // --- boxes ---
 
+/// An input of the box tests.
 struct RayAndBox {
     Ray ray;
     Aabb box;

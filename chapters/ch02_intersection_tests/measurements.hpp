@@ -24,24 +24,28 @@ struct Amounts {
 /// For tests (--small), for a look (--quick), for the book.
 Amounts amounts(const Options& options);
 
+/// The triangle tests on one scene.
 struct SceneTimes {
     std::string scene;
     std::vector<Timed> tests;    ///< in the order of triangle_tests
     std::vector<Timed> lichter;  ///< "first", "fewer roots", "early exit", "improved"
 };
 
+/// The box tests, and the orders of one of them, on inputs of one predictability.
 struct PatternTimes {
     Pattern pattern;
     std::vector<Timed> boxes;   ///< in the order of box_tests
     std::vector<Timed> orders;  ///< "cheap first", "expensive first", "decide last"
 };
 
+/// What one rule for origins gives at one distance from the world's origin.
 struct PlacedBounces {
     std::string_view way;
     double place;
     Bounces bounces;
 };
 
+/// All that a run counts and times.
 struct Measurements {
     std::vector<TriangleAccuracy> triangles;  ///< in the order of triangle_inputs()
     std::vector<Leaks> leaks;

@@ -9,6 +9,7 @@
 
 namespace space {
 
+/// A test as a type, with its name and one line about it.
 template <class T>
 struct NamedTest {
     using Test = T;

@@ -9,6 +9,7 @@
 
 namespace space {
 
+/// Decides by the signs of the three volumes of the ray with the edges.
 struct Plucker {
     // [plucker]
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {

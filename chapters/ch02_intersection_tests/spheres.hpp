@@ -9,6 +9,7 @@
 
 namespace space {
 
+/// The points at the distance radius from the centre.
 struct Sphere {
     Point3 center{0.0f};
     float radius = 1.0f;

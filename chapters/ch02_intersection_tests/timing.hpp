@@ -11,6 +11,7 @@
 
 namespace space {
 
+/// A median time and what took it.
 struct Timed {
     std::string test;
     double ns;  ///< per test
@@ -60,6 +61,7 @@ std::vector<Timed> time_orders(Pattern pattern, int rounds);
 
 // --- square roots ---
 
+/// A median time of one form of the root with so many rounds.
 struct TimedRoot {
     std::string test;
     int rounds;

@@ -9,6 +9,7 @@
 
 namespace space {
 
+/// Maps the ray to where the triangle is the unit one.
 struct UnitTriangle {
     /// Rows of the map: u, v and height over the triangle's plane are row . point + offset. 48 bytes.
     struct Prepared {

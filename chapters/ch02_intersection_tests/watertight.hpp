@@ -10,7 +10,9 @@
 
 namespace space {
 
+/// Shears the ray to the z axis and decides in the plane.
 struct Watertight {
+    /// The ray with its shear, for many triangles.
     struct Prepared {
         Point3 origin;
         int kx, ky, kz;  ///< the ray's longest axis is kz; kx, ky keep the winding

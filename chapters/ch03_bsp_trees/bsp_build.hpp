@@ -18,6 +18,7 @@
 
 namespace space {
 
+/// How a node's plane is chosen.
 enum class SplitterChoice {
     first,          ///< the first of the set
     random,         ///< any of the set
@@ -30,6 +31,7 @@ enum class SplitterChoice {
 /// Crossing polygons are cut, or put whole into both subtrees (Heinonen16, section 3.1.1).
 enum class Straddlers { split, share };
 
+/// What a builder may choose.
 struct BspConfig {
     SplitterChoice splitter = SplitterChoice::weighted;
     Straddlers straddlers = Straddlers::split;
@@ -53,6 +55,7 @@ struct NoBspObserver {
     void cut(const Fragment<D>& /*whole*/, const Fragment<D>& /*front*/, const Fragment<D>& /*back*/) {}
 };
 
+/// The builder: makes a tree of polygons and tells an observer each step.
 template <int D, class Observer = NoBspObserver>
 class BspBuilder {
   public:

@@ -14,6 +14,7 @@ namespace space {
 /// What lies at a place that no polygon passes through.
 enum class Cell { outside, inside, boundary };
 
+/// The tree over segments (D = 2) or polygons (D = 3).
 template <int D>
 struct BspTree {
     static constexpr std::int32_t none = -1;

@@ -23,6 +23,7 @@ enum class Grade {
 /// Where a fragment lies, seen from a plane.
 enum class Side { front, back, on, across };
 
+/// A corner of a fragment.
 template <int D>
 struct Corner {
     DoublePoint<D> at;  ///< exact, or within `error` of the exact corner
