@@ -122,7 +122,7 @@ function(add_figure chapter id kind caption)
     add_test(NAME ${short}.${id} COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}> -D FIGURE=${id}
              -D SUFFIX=${suffix} -D REFERENCES=${PROJECT_SOURCE_DIR}/figures -D OUT=${PROJECT_BINARY_DIR}/figures
              -P ${PROJECT_SOURCE_DIR}/tests/house/compare_figure.cmake)
-    set_tests_properties(${short}.${id} PROPERTIES LABELS figure TIMEOUT 300)
+    set_tests_properties(${short}.${id} PROPERTIES LABELS "figure;no_sanitizer" TIMEOUT 300)
 endfunction()
 
 # Catch2, compiled once; a program without test cases fails (version 3 does that unasked).
