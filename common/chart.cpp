@@ -441,14 +441,20 @@ std::string restyled(std::string svg, const Chart& chart) {
 
 std::string chart_csv(const Chart& chart) {
     const bool bars = chart.kind == ChartKind::bars;
-    std::string csv = fmt::format("# {}: {}\n# machine: {}\n# date: {}\nseries,{},{}\n", chart.id,
+    const bool labelled = std::any_of(chart.series.begin(), chart.series.end(),
+                                      [](const Series& series) { return !series.labels.empty(); });
+    std::string csv = fmt::format("# {}: {}\n# machine: {}\n# date: {}\nseries,{},{}{}\n", chart.id,
                                   one_line(chart.title), one_line(machine_description()), today(),
-                                  csv_field(bars ? "category" : chart.x_label), csv_field(chart.y_label));
+                                  csv_field(bars ? "category" : chart.x_label), csv_field(chart.y_label),
+                                  labelled ? ",label" : "");
     for (const Series& series : chart.series)
-        for (std::size_t i = 0; i < series.y.size(); ++i)
-            csv += fmt::format("{},{},{:.9g}\n", csv_field(series.name),
+        for (std::size_t i = 0; i < series.y.size(); ++i) {
+            csv += fmt::format("{},{},{:.9g}", csv_field(series.name),
                                bars ? csv_field(chart.categories.at(i)) : fmt::format("{:.9g}", series.x.at(i)),
                                series.y[i]);
+            if (labelled) csv += "," + csv_field(i < series.labels.size() ? series.labels[i] : "");
+            csv += '\n';
+        }
     return csv;
 }
 

@@ -77,6 +77,16 @@ TEST_CASE("bars are told by category in the data file") {
     CHECK(contains(chart_csv(chart), "\nseries,category,%\nshare,1 K,60\nshare,2 K,99.5\n"));
 }
 
+TEST_CASE("the labels of points stand in the data file") {
+    const Chart chart{.id = "c",
+                      .title = "",
+                      .x_label = "x",
+                      .y_label = "y",
+                      .kind = ChartKind::points,
+                      .series = {{.name = "tests", .x = {1, 2}, .y = {3, 4}, .labels = {"plain", "a, b"}}}};
+    CHECK(contains(chart_csv(chart), "\nseries,x,y,label\ntests,1,3,plain\ntests,2,4,\"a, b\"\n"));
+}
+
 TEST_CASE("a chart has the drawings' palette, style and ids") {
     if (!gnuplot_is_here()) {
         WARN("skipped: gnuplot is not installed");
