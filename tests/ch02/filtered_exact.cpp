@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cstdio>
 #include <functional>
 
 #include "chapters/ch02_intersection_tests/inputs.hpp"
@@ -160,11 +161,14 @@ const std::vector<Kind>& hostile_kinds() {
     return all;
 }
 
-Outcome all_inputs(int pairs) {
+/// `first` pairs of each of the first three classes, random and aimed at edges and vertices.
+Outcome all_inputs(int pairs, int first) {
     Outcome sum;
+    int first_left = 3;
     const auto add = [&](std::string_view name, const auto& make) {
-        const Outcome outcome = compare_all(pairs, make);
+        const Outcome outcome = compare_all(first_left-- > 0 ? first : pairs, make);
         fmt::print("{}: {}\n", name, outcome.text());
+        std::fflush(stdout);
         INFO(name << ": " << outcome.text());
         CHECK(outcome.right());
         sum += outcome;
@@ -193,7 +197,7 @@ Outcome all_inputs(int pairs) {
 TEST_CASE(
     "filtered exact decides as exact arithmetic does, with the nearest float t, on every input and at every end of the "
     "interval") {
-    const Outcome sum = all_inputs(pairs_each);
+    const Outcome sum = all_inputs(pairs_each, pairs_each);
     CHECK(sum.hits > sum.decisions / 10);
     CHECK(sum.boundary > 0);
     // All three stages are tried.
@@ -204,7 +208,7 @@ TEST_CASE(
 }
 
 TEST_CASE("filtered exact decides as exact arithmetic does: the full sizes", "[.big]") {
-    CHECK(all_inputs(1'000'000).right());
+    CHECK(all_inputs(100'000, 1'000'000).right());
 }
 
 TEST_CASE("each stage of filtered exact gives the same hit for the same ray") {
