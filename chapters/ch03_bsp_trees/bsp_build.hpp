@@ -173,13 +173,10 @@ class BspBuilder {
     }
 
     static bool spans_plane(const Corners<D>& polygon) {
-        const SplitPlane<D> plane(polygon);
-        if constexpr (D == 2) return plane.through[0] != plane.through[1];
-        // The corners are on one line where their plane has no other point in front or behind: an exact zero normal.
-        for (int axis = 0; axis < D; ++axis) {
-            if (plane.normal[axis] != 0.0) return true;
-        }
-        return false;
+        if constexpr (D == 2)
+            return polygon[0] != polygon[1];
+        else
+            return !is_on_a_line(polygon);
     }
 
     Candidate polygon_plane(const Fragment<D>& fragment) const {

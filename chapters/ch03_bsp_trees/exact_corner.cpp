@@ -1,6 +1,6 @@
 #include "chapters/ch03_bsp_trees/exact_corner.hpp"
 
-#include <gmpxx.h>
+#include "chapters/ch03_bsp_trees/exact_point.hpp"
 
 namespace space {
 namespace {
@@ -129,9 +129,18 @@ constexpr double good_enough = 0x1p-30;
 template <int D>
 double one_norm(const DoublePoint<D>& v) { return SplitPlane<D>::one_norm(v); }
 
+/// Any order of points, so that polygons on both sides of an edge round the same point.
+template <int D>
+bool before(const Point<D>& p, const Point<D>& q) {
+    for (int axis = 0; axis < D; ++axis)
+        if (p[axis] != q[axis]) return p[axis] < q[axis];
+    return false;
+}
+
 /// Where the line through p and q meets the plane, in double.
 template <int D>
 std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>& q, const SplitPlane<D>& plane) {
+    if (before<D>(q, p)) return meet_in_double<D>(q, p, plane);
     const DoublePoint<D> start(p), way = DoublePoint<D>(q) - start, anchor(plane.through[0]);
     const double of_p = plane.distance(start), of_q = plane.distance(DoublePoint<D>(q)), difference = of_p - of_q;
     const double p_error = roundings * plane.size * one_norm<D>(start - anchor);
@@ -181,6 +190,25 @@ template <int D>
 int exact_side(const Corners<D>& plane, const Point<D>& point) {
     return sgn(WholePlane<D>(plane).distance(units<D>(point)));
 }
+
+bool is_on_a_line(const Corners<3>& polygon) {
+    const SplitPlane<3> quick(polygon);
+    if (one_norm<3>(quick.normal) > roundings * quick.size) return false;
+    const WholePlane<3> plane(polygon);
+    return plane.normal[0] == 0 && plane.normal[1] == 0 && plane.normal[2] == 0;
+}
+
+std::array<mpq_class, 3> exact_point(const Meet3& meet) {
+    const Homogeneous<3> point = point_of(meet);
+    std::array<mpq_class, 3> result;
+    for (int axis = 0; axis < 3; ++axis) {
+        result[axis] = mpq_class(point.numerator[axis], point.denominator);
+        result[axis].canonicalize();
+        mpq_div_2exp(result[axis].get_mpq_t(), result[axis].get_mpq_t(), unit_exponent);
+    }
+    return result;
+}
+
 template int exact_side<2>(const Corners<2>&, const Point<2>&);
 template int exact_side<3>(const Corners<3>&, const Point<3>&);
 

@@ -19,6 +19,7 @@ struct Carrier {
     static Carrier plane(std::uint32_t number) { return {static_cast<std::int32_t>(number)}; }
     bool is_original() const { return id < 0; }
     int edge() const { return -1 - id; }
+    std::size_t number() const { return static_cast<std::size_t>(id); }  ///< of the plane
     bool operator==(const Carrier&) const = default;
 };
 
@@ -47,6 +48,9 @@ int exact_side(const Corners<3>& plane, const Meet3& meet);
 int exact_side(const Corners<2>& line, const Meet2& meet);
 template <int D>
 int exact_side(const Corners<D>& plane, const Point<D>& point);
+
+/// Whether the three points lie on one line, exactly.
+bool is_on_a_line(const Corners<3>& polygon);
 
 /// The point itself, rounded from the exact one.
 Approximation<3> approximate(const Meet3& meet);

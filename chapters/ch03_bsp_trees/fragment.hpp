@@ -30,6 +30,11 @@ struct Corner {
     double error = 0.0;
     Carrier carrier{};  ///< in space: of the edge to the next corner; in the plane: of this end
 };
+/// A corner of the original polygon; every cut has an error in the exact grade, however small.
+template <int D>
+bool is_exact(const Corner<D>& corner) {
+    return corner.error == 0.0;
+}
 
 /// A convex piece of an input polygon: corners in the polygon's order, in its plane.
 template <int D>
@@ -43,6 +48,21 @@ Fragment<D> whole_polygon(const Corners<D>& points, std::uint32_t polygon) {
     Fragment<D> fragment{polygon, {}};
     for (int i = 0; i < D; ++i) fragment.corners.push_back({DoublePoint<D>(points[i]), 0.0, Carrier::original(i)});
     return fragment;
+}
+
+/// The exact corner: where its polygon and the carriers of its two edges meet.
+inline Meet3 meet_of(const Fragment<3>& fragment, std::size_t corner, std::span<const Corners<3>> polygons,
+                     std::span<const SplitPlane<3>> planes) {
+    const std::size_t count = fragment.corners.size();
+    const Carrier before = fragment.corners[(corner + count - 1) % count].carrier;
+    const Carrier after = fragment.corners[corner].carrier;
+    const auto edge = [](Carrier c) { return c.is_original() ? c.edge() : -1; };
+    const auto plane = [&](Carrier c) { return c.is_original() ? nullptr : &planes[c.number()].through; };
+    return {&polygons[fragment.polygon], edge(before), edge(after), plane(before), plane(after)};
+}
+inline Meet2 meet_of(const Fragment<2>& fragment, std::size_t end, std::span<const Corners<2>> polygons,
+                     std::span<const SplitPlane<2>> planes) {
+    return {&polygons[fragment.polygon], &planes[fragment.corners[end].carrier.number()].through};
 }
 
 /// Decides and cuts in one grade. Holds on to the input polygons and the planes: what exact corners are made of.
@@ -146,27 +166,19 @@ class Splitter {
     Corner<D> exact_cut(const Fragment<D>& fragment, const Corner<D>& here, const SplitPlane<D>& plane) const {
         const Corners<D>& polygon = polygons_[fragment.polygon];
         Approximation<D> point;
-        if constexpr (D == 3)
-            point = approximate(Meet3{&polygon, edge_of(here.carrier), -1, plane_of(here.carrier), &plane.through});
-        else
+        if constexpr (D == 2)
             point = approximate(Meet2{&polygon, &plane.through});
+        else if (here.carrier.is_original())
+            point = approximate(Meet3{&polygon, here.carrier.edge(), -1, nullptr, &plane.through});
+        else
+            point = approximate(Meet3{&polygon, -1, -1, &planes_[here.carrier.number()].through, &plane.through});
         return {point.at, point.error, here.carrier};
     }
 
     int exact_side_of(const Fragment<D>& fragment, std::size_t corner, const SplitPlane<D>& plane) const {
         const Corner<D>& c = fragment.corners[corner];
-        const Corners<D>& polygon = polygons_[fragment.polygon];
-        if (c.error == 0.0) return exact_side<D>(plane.through, Point<D>(c.at));  // an original corner
-        if constexpr (D == 3) {
-            const Carrier before = fragment.corners[(corner + fragment.corners.size() - 1) % fragment.corners.size()].carrier;
-            return exact_side(plane.through, Meet3{&polygon, edge_of(before), edge_of(c.carrier), plane_of(before), plane_of(c.carrier)});
-        } else {
-            return exact_side(plane.through, Meet2{&polygon, plane_of(c.carrier)});
-        }
-    }
-    static int edge_of(Carrier carrier) { return carrier.is_original() ? carrier.edge() : -1; }
-    const Corners<D>* plane_of(Carrier carrier) const {
-        return carrier.is_original() ? nullptr : &planes_[static_cast<std::size_t>(carrier.id)].through;
+        if (is_exact(c)) return exact_side<D>(plane.through, Point<D>(c.at));
+        return exact_side(plane.through, meet_of(fragment, corner, polygons_, planes_));
     }
 
     std::span<const Corners<D>> polygons_;

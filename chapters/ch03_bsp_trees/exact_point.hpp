@@ -1,0 +1,16 @@
+/// @file
+/// Exact corners as rational numbers, for those few who need more than a side: exact areas, exact hits.
+#pragma once
+
+#include <array>
+
+#include <gmpxx.h>
+
+#include "chapters/ch03_bsp_trees/exact_corner.hpp"
+
+namespace space {
+
+/// In scene units.
+std::array<mpq_class, 3> exact_point(const Meet3& meet);
+
+}  // namespace space
