@@ -245,6 +245,14 @@ void Svg::begin_group(std::string_view id) {
     ++open_groups_;
 }
 
+void Svg::begin_step(int first, std::optional<int> last, std::string_view tells) {
+    body_ += fmt::format("<g data-first=\"{}\"", first);
+    if (last) body_ += fmt::format(" data-last=\"{}\" display=\"none\"", *last);
+    body_ += ">\n";
+    if (!tells.empty()) body_ += fmt::format("<desc>{}</desc>\n", svg_escaped(tells));
+    ++open_groups_;
+}
+
 void Svg::end_group() {
     if (open_groups_-- == 0) throw std::logic_error("svg: end_group without begin_group");
     body_ += "</g>\n";

@@ -65,6 +65,10 @@ class Svg {
     void text(Point2 at, std::string_view text, const TextStyle& style = {}, std::string_view id = {});
     /// Groups what follows up to end_group under an id of its own, for scripts that show and hide it.
     void begin_group(std::string_view id);
+    /// Groups what follows up to end_group as a part of a step-through: a page leads its reader through the steps, from
+    /// 0 on, and shows the group from step `first` to step `last` (nothing: to the end) and `tells`, if not empty, at step
+    /// `first`. Where no script runs, what is there at the end shows. Steps may not stand in steps.
+    void begin_step(int first, std::optional<int> last = {}, std::string_view tells = {});
     void end_group();
     /// Pixels as an embedded PNG; drawn twice as large or larger, as squares with sharp sides.
     void picture(Point2 corner, Vector2 size, const Image& image, std::string_view id = {});

@@ -70,7 +70,55 @@ function search() {
   if (!found.length) results.append("Nothing in the book has all of these words.");
 }
 
+// A drawing with steps (Svg::begin_step): its list of steps shows one at a time, with the groups of that step.
+function stepThrough(list) {
+  const drawing = list.previousElementSibling, items = [...list.children], last = items.length - 1;
+  const groups = [...drawing.querySelectorAll("[data-first]")];
+  const bar = document.createElement("div"), count = document.createElement("output");
+  bar.className = "step-bar";
+  bar.setAttribute("role", "group");
+  bar.setAttribute("aria-label", "Steps of the drawing");
+  let now = 0;
+  const show = (step) => {
+    now = Math.max(0, Math.min(last, step));
+    for (const group of groups) {
+      const shown = now >= Number(group.dataset.first) && now <= Number(group.dataset.last ?? last);
+      if (shown) group.removeAttribute("display");
+      else group.setAttribute("display", "none");
+    }
+    items.forEach((item, i) => (item.hidden = i !== now));
+    count.textContent = `${now} of ${last}`;
+    for (const [button, , end] of buttons) button.disabled = now === end;
+  };
+  const button = (sign, name, step, end) => {
+    const element = document.createElement("button");
+    element.type = "button";
+    element.textContent = sign;
+    element.title = name;
+    element.setAttribute("aria-label", name);
+    element.addEventListener("click", () => show(step()));
+    return [element, step, end];
+  };
+  const buttons = [button("⏮", "First step", () => 0, 0), button("◀ Back", "Step back", () => now - 1, 0),
+                   button("Next ▶", "Next step", () => now + 1, last), button("⏭", "Last step", () => last, last)];
+  bar.append(buttons[0][0], buttons[1][0], count, buttons[2][0], buttons[3][0]);
+  list.before(bar);
+  list.setAttribute("aria-live", "polite");
+  list.classList.add("one-at-a-time");
+  show(0);
+  document.addEventListener("keydown", (event) => {
+    const moves = { ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last };
+    if (!(event.key in moves) || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
+    // Of several the one that has the focus; a single one on its page always listens, but leaves Home and End to the page.
+    const inside = bar.parentElement.contains(document.activeElement), alone = document.querySelectorAll("ol.steps").length === 1;
+    if (!inside && (!alone || event.key.length < 5 || document.activeElement.matches("input, textarea, .scroll, .fragment"))) return;
+    show(moves[event.key]);
+    event.preventDefault();
+  });
+}
+
 document.addEventListener("DOMContentLoaded", () => {
+  document.querySelectorAll("ol.steps").forEach(stepThrough);
   if (/\\[(\[]/.test(document.querySelector(".contents")?.textContent)) load("mathjax/MathJax.js?config=TeX-AMS_SVG-full");
   else document.documentElement.classList.add("formulas-shown");
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,24 @@ std::string svg_element(const std::filesystem::path& file) {
     return text.substr(start);
 }
 
+/// What the steps of a drawing tell (common/svg.hpp), as a list: a reader without scripts has the last step's picture and all
+/// of this. Nothing for a drawing without steps.
+std::string list_of_steps(std::string_view drawing) {
+    constexpr std::string_view step_mark = "<g data-first=\"", open = "<desc>", close = "</desc>";
+    std::map<int, std::string> steps;
+    for (std::size_t at; (at = drawing.find(step_mark)) != drawing.npos; drawing.remove_prefix(at + step_mark.size())) {
+        const std::string_view group = drawing.substr(at);
+        const std::string_view inside = group.substr(group.find('>') + 2);  // a line ends there
+        if (!inside.starts_with(open)) continue;
+        const std::string_view text = inside.substr(open.size());
+        steps[std::stoi(attribute(group, "data-first"))] = text.substr(0, text.find(close));
+    }
+    if (steps.empty()) return {};
+    std::string list = "<ol class=\"steps\">\n";
+    for (const auto& [number, text] : steps) list += fmt::format("<li>{}</li>\n", text);
+    return list + "</ol>\n";
+}
+
 }  // namespace
 
 std::string inline_drawings(const std::string& page, const std::filesystem::path& folder) {
@@ -55,7 +74,7 @@ std::string inline_drawings(const std::string& page, const std::filesystem::path
         for (std::size_t at; (at = rest.find(" id=\"")) != rest.npos; rest.remove_prefix(at + 5))
             if (const std::string id = attribute(rest.substr(at), "id"); !ids.insert(id).second)
                 throw input_error(fmt::format("{}: the page already has an element with the id {}", file.string(), id));
-        return drawing;
+        return drawing + list_of_steps(drawing);
     });
 }
 

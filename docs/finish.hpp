@@ -8,7 +8,8 @@
 
 namespace space::docs {
 
-/// Puts the SVG files that the page shows into the page itself, where the page's colours reach them.
+/// Puts the SVG files that the page shows into the page itself, where the page's colours reach them; after one with steps
+/// (Svg::begin_step) comes the list of what they tell, which book.js makes into a step-through.
 /// @throws Error (bad_input) where a picture is missing or two pictures of the page share an element's id
 std::string inline_drawings(const std::string& page, const std::filesystem::path& folder);
 

@@ -8,16 +8,6 @@
 #include "chapters/ch03_bsp_trees/sketch.hpp"
 
 namespace space {
-namespace {
-
-/// Where the names of Heinonen16's segments stand: along the segment and away from it, on its front where positive.
-Point2 name_place(const PlaneView& view, const Piece& piece) {
-    const double away = piece.name == "B" || piece.name == "G" || piece.name[0] == 'C' ? -20.0 : 20.0;
-    return moved(beside(view, piece.from, piece.to, 0.5, away), 0, 6);
-}
-
-}  // namespace
-
 // ---------------------------------------------------------------------------------------------------------------------
 // 3.1 The plane of A .. G
 
@@ -42,18 +32,13 @@ void draw_heinonen_plane(const Options& options) {
         const Piece& piece = story.pieces[i];
         draw_segment(svg, view, piece.from, piece.to, {.stroke = {}, .fill = Ink::ink});
         draw_front_tick(svg, view, piece.from, piece.to);
-        svg.text(name_place(view, piece), written(piece), {.size = 20, .halo = true}, "name-" + piece.name);
+        svg.text(heinonen_name_place(view, piece), written(piece), {.size = 20, .halo = true}, "name-" + piece.name);
     }
     for (const Turn& turn : story.turns)
         for (const Turn::Cut& cut : turn.cuts)
-            svg.circle(view(story.pieces[cut.front].to == story.pieces[cut.back].from ? story.pieces[cut.front].to
-                                                                                        : story.pieces[cut.front].from),
-                       5, {.fill = Ink::vermillion});
-    for (std::size_t i = 0; i < story.cells.size(); ++i) {
-        Double2 middle(0.0);
-        for (const Double2& corner : story.cells[i].cell) middle += corner / static_cast<double>(story.cells[i].cell.size());
-        svg.text(moved(view(middle), 0, 6), fmt::format("{}", i + 1), {.ink = Ink::quiet, .size = 16});
-    }
+            svg.circle(view(cut_point(story, cut)), 5, {.fill = Ink::vermillion});
+    for (std::size_t i = 0; i < story.cells.size(); ++i)
+        svg.text(moved(view(story.cells[i].place), 0, 6), fmt::format("{}", i + 1), {.ink = Ink::quiet, .size = 16});
 
     double y = 38;
     for (const Turn& turn : story.turns) {

@@ -8,6 +8,7 @@ namespace {
 constexpr Figure figures[] = {
     {"fig_03_01", FigureKind::drawing, draw_heinonen_plane},
     {"fig_03_02", FigureKind::drawing, draw_heinonen_tree},
+    {"fig_03_10", FigureKind::drawing, draw_step_through},
 };
 
 }  // namespace

@@ -39,6 +39,12 @@ void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const
     svg.line(beside(view, from, to, 0.5, 0.0), beside(view, from, to, 0.5, 11.0), {.stroke = ink});
 }
 
+Point2 heinonen_name_place(const PlaneView& view, const Piece& piece) {
+    const char letter = piece.name.front();
+    const double away = letter == 'B' || letter == 'G' || letter == 'C' ? -21.0 : 21.0;
+    return moved(beside(view, piece.from, piece.to, letter == 'G' ? 0.3 : 0.5, away), 0, 7);
+}
+
 std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn) {
     const auto& plane = story.tree.planes[story.tree.nodes[turn].plane];
     const ConvexCell& cell = story.turns[turn].cell;

@@ -32,6 +32,9 @@ void draw_segment(Svg& svg, const PlaneView& view, const Double2& from, const Do
 void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to, Ink ink = Ink::ink);
 Point2 beside(const PlaneView& view, const Double2& from, const Double2& to, double along, double away);
 
+/// Where the name of one of Heinonen16's segments, or of its piece, stands.
+Point2 heinonen_name_place(const PlaneView& view, const Piece& piece);
+
 /// The splitter's line within its node's cell: its two ends.
 std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn);
 

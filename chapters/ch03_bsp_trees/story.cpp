@@ -1,6 +1,7 @@
 #include "chapters/ch03_bsp_trees/story.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/scene.hpp"
 
@@ -57,7 +58,39 @@ class Watcher {
     Story& story_;
 };
 
+double distance(const Double2& p, const Double2& from, const Double2& to) {
+    const Double2 way = to - from;
+    const double along = std::clamp(glm::dot(p - from, way) / glm::dot(way, way), 0.0, 1.0);
+    return glm::length(p - from - along * way);
+}
+
+/// Of a grid of points the one of the cell that is farthest from its sides and from all pieces; those have names, and count
+/// as nearer than they are.
+Double2 roomy_place(const ConvexCell& cell, std::span<const Piece> pieces) {
+    Double2 low(infinity), high(-infinity), best = cell.front();
+    for (const Double2& corner : cell) low = glm::min(low, corner), high = glm::max(high, corner);
+    double most = 0.0;
+    constexpr int steps = 48;
+    for (int i = 1; i < steps * steps; ++i) {
+        const Double2 p = low + Double2(i % steps, i / steps) / double{steps} * (high - low);
+        double room = infinity;
+        for (std::size_t k = 0; k < cell.size(); ++k) {
+            const Double2 &a = cell[k], &b = cell[(k + 1) % cell.size()];
+            const bool inside = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
+            room = std::min(room, inside ? distance(p, a, b) : 0.0);
+        }
+        for (const Piece& piece : pieces) room = std::min(room, 0.5 * distance(p, piece.from, piece.to));
+        if (room > most) most = room, best = p;
+    }
+    return best;
+}
+
 }  // namespace
+
+Double2 cut_point(const Story& story, const Turn::Cut& cut) {
+    const Piece &front = story.pieces[cut.front], &back = story.pieces[cut.back];
+    return front.from == back.to ? front.from : front.to;
+}
 
 ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_front) {
     ConvexCell part;
@@ -97,10 +130,11 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config, 
             else
                 story.cells.push_back(
                     {node, in_front,
-                     part_of(story.turns[static_cast<std::size_t>(node)].cell, line_of(node), in_front)});
+                     part_of(story.turns[static_cast<std::size_t>(node)].cell, line_of(node), in_front), {}});
         }
     };
     if (!story.tree.nodes.empty()) visit(visit, 0);
+    for (EmptyCell& cell : story.cells) cell.place = roomy_place(cell.cell, story.pieces);
     return story;
 }
 

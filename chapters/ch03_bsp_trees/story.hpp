@@ -47,6 +47,7 @@ struct EmptyCell {
     std::int32_t node;
     bool in_front;
     ConvexCell cell;
+    Double2 place;  ///< for its number: far from its sides and from all pieces
 };
 
 /// The tree with the turns that made it, one for each node.
@@ -57,6 +58,9 @@ struct Story {
     std::vector<std::size_t> fragment_pieces;  ///< of the tree's fragments
     std::vector<EmptyCell> cells;              ///< from back to front in every node: from left to right in a drawn tree
 };
+
+/// Where the cut was made.
+Double2 cut_point(const Story& story, const Turn::Cut& cut);
 
 /// Builds the tree and watches. Segments are called A, B, C ..; `frame` is the part of the plane that is shown.
 Story watched_build(std::span<const Segment> segments, const BspConfig& config, const ConvexCell& frame);

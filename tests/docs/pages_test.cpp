@@ -33,6 +33,15 @@ TEST_CASE("a drawing becomes part of its page, without the XML declaration") {
           "<p><svg id=\"a\"><g id=\"a-x\"/></svg>\n</p>");
 }
 
+TEST_CASE("a drawing with steps is followed by the list of what they tell, in their order") {
+    const Folder folder;
+    write_file(folder.path / "a.svg",
+               "<svg id=\"a\"><g data-first=\"1\">\n<desc>then</desc>\n</g>\n<g data-first=\"0\" data-last=\"0\" "
+               "display=\"none\">\n<desc>first &lt;</desc>\n</g>\n<g data-first=\"1\">\n</g>\n</svg>\n");
+    const std::string page = inline_drawings(picture("a.svg"), folder.path);
+    CHECK(page.ends_with("</svg>\n<ol class=\"steps\">\n<li>first &lt;</li>\n<li>then</li>\n</ol>\n"));
+}
+
 TEST_CASE("a missing drawing, and two drawings with an id in common, are errors") {
     const Folder folder;
     write_file(folder.path / "a.svg", "<svg id=\"a\"/>");

@@ -144,6 +144,17 @@ TEST_CASE("the same calls give the same bytes") {
     CHECK(draw() == draw());
 }
 
+TEST_CASE("of steps, those that end before the drawing does are hidden where no script runs") {
+    Svg svg("fig_99_01", "Steps", 10, 10);
+    svg.begin_step(0, 1, "a < b");
+    svg.end_group();
+    svg.begin_step(2);
+    svg.end_group();
+    const std::string text = svg.document();
+    CHECK(text.find("<g data-first=\"0\" data-last=\"1\" display=\"none\">\n<desc>a &lt; b</desc>\n</g>") != text.npos);
+    CHECK(text.find("<g data-first=\"2\">\n</g>") != text.npos);
+}
+
 TEST_CASE("a group that is not closed, or not open, is a fault that shows") {
     Svg open("f", "", 1, 1);
     open.begin_group("g");
