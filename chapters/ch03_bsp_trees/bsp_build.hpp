@@ -168,8 +168,10 @@ class BspBuilder {
         }
         auto [front, back] = cutter.split(fragment, sides, plane);
         observer_.cut(fragment, front, back);
-        if (Splitter<D>::has_extent(front)) parts.front.push_back(std::move(front));
-        if (Splitter<D>::has_extent(back)) parts.back.push_back(std::move(back));
+        // Exact pieces have an extent, even where it is too small for their corners to differ in double.
+        const bool exact = config_.grade == Grade::exact;
+        if (exact || Splitter<D>::has_extent(front)) parts.front.push_back(std::move(front));
+        if (exact || Splitter<D>::has_extent(back)) parts.back.push_back(std::move(back));
     }
 
     static bool spans_plane(const Corners<D>& polygon) {
