@@ -195,11 +195,11 @@ class BspBuilder {
         if (config_.splitter == SplitterChoice::random) return polygon_plane(set[random_.below(size)]);
 
         std::optional<Candidate> best;
-        double best_price = 0.0, best_share = 0.0;
+        double best_price = infinity, best_share = 0.0;
         const auto consider = [&](const Candidate& candidate) {
-            const Tally tally = tally_of(candidate, set);
+            const Tally tally = tally_of(candidate, set, best_price);
             const double price = price_of(tally);
-            if (best && price >= best_price) return;
+            if (price >= best_price) return;
             best = candidate;
             best_price = price;
             best_share = static_cast<double>(std::min(tally.front, tally.back) + tally.cuts) / static_cast<double>(size);
@@ -217,7 +217,8 @@ class BspBuilder {
     }
     // [choose]
 
-    Tally tally_of(const Candidate& candidate, const Set& set) {
+    /// Counts until the candidate is dearer than `limit`, which it can't undo: cuts never become fewer.
+    Tally tally_of(const Candidate& candidate, const Set& set, double limit = infinity) {
         const std::vector<SplitPlane<D>> one{candidate.plane};
         // Counting decides nothing that must be exact: doubles do.
         const Splitter<D> counter(tree_.polygons, one, config_.grade == Grade::exact ? Grade::ordered_double : config_.grade,
@@ -226,6 +227,7 @@ class BspBuilder {
         for (const Fragment<D>& fragment : set) {
             const Side place = place_of(counter, fragment, candidate, 0, sides_);
             ++(place == Side::front ? tally.front : place == Side::back ? tally.back : place == Side::on ? tally.on : tally.cuts);
+            if (place == Side::across && price_of({.cuts = tally.cuts}) >= limit) break;
         }
         return tally;
     }

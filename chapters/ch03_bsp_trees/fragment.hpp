@@ -133,15 +133,14 @@ class Splitter {
             return exact_side_of(fragment, corner, plane);
         }
         const double distance = inexact_distance(plane, c.at);
-        return distance > thickness_ ? 1 : distance < -thickness_ ? -1 : 0;
+        const double limit = grade_ == Grade::ordered_double ? thickness_ * plane.length : thickness_;
+        return distance > limit ? 1 : distance < -limit ? -1 : 0;
     }
 
-    /// Signed distance from the plane in scene units, in the grade's precision.
+    /// Signed distance from the plane in the grade's precision: in scene units in floats, times |normal| in double.
     double inexact_distance(const SplitPlane<D>& plane, const DoublePoint<D>& p) const {
-        if (grade_ == Grade::ordered_double) return plane.distance(p) / glm::length(plane.normal);
-        const Vector<D> normal(glm::normalize(plane.normal));
-        const float offset = glm::dot(normal, plane.through[0]);
-        return glm::dot(normal, Point<D>(p)) - offset;
+        if (grade_ == Grade::ordered_double) return plane.distance(p);
+        return glm::dot(plane.unit, Point<D>(p)) - glm::dot(plane.unit, plane.through[0]);
     }
 
     // [cut_edge]

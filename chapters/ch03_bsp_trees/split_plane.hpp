@@ -27,7 +27,9 @@ template <int D>
 struct SplitPlane {
     Corners<D> through;
     DoublePoint<D> normal;
-    double size;  ///< |normal|_1 <= size, and so are the sums of the products that make it up
+    double size;    ///< |normal|_1 <= size, and so are the sums of the products that make it up
+    double length;  ///< of the normal
+    Vector<D> unit;
 
     explicit SplitPlane(const Corners<D>& points) : through(points) {
         const DoublePoint<D> a{points[0]}, ab = DoublePoint<D>(points[1]) - a;
@@ -39,6 +41,8 @@ struct SplitPlane {
             normal = {-ab.y, ab.x};
             size = one_norm(ab);
         }
+        length = glm::length(normal);
+        unit = Vector<D>(normal / length);
     }
 
     static double one_norm(const DoublePoint<D>& v) {
