@@ -1,0 +1,79 @@
+#include "ex01_classify_a_polygon.hpp"
+
+#include <array>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+namespace space {
+
+static std::ostream& operator<<(std::ostream& out, Side side) {
+    constexpr std::array names{"front", "back", "on", "across"};
+    return out << names[static_cast<std::size_t>(side)];
+}
+
+}  // namespace space
+
+using namespace space;
+
+namespace {
+
+using Polygon = std::vector<Point3>;
+
+const SplitPlane<3> floor_plane({Point3(0, 0, 0), Point3(1, 0, 0),
+                                 Point3(0, 1, 0)});  // front: z > 0
+
+}  // namespace
+
+TEST_CASE("a triangle in front, one behind, one on the plane and one across it") {
+    CHECK(classify(Polygon{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, floor_plane) == Side::front);
+    CHECK(classify(Polygon{{0, 0, -1}, {4, 0, -2}, {0, 4, -3}}, floor_plane) == Side::back);
+    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, floor_plane) == Side::on);
+    CHECK(classify(Polygon{{0, 0, 1}, {4, 0, -2}, {0, 4, 3}}, floor_plane) == Side::across);
+}
+
+TEST_CASE("a polygon that touches the plane with a corner or an edge does not lie across it") {
+    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 1}, {0, 4, 1}}, floor_plane) == Side::front);
+    CHECK(classify(Polygon{{0, 0, -1}, {4, 0, 0}, {0, 4, 0}}, floor_plane) == Side::back);
+    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 0}, {4, 0, 4}, {0, 0, 4}}, floor_plane) ==
+          Side::front);
+}
+
+TEST_CASE("a square that the plane cuts from corner to corner lies across it") {
+    const Polygon square{{0, 0, 0}, {2, 0, 2}, {4, 0, 0}, {2, 0, -2}};
+    CHECK(classify(square, floor_plane) == Side::across);
+}
+
+TEST_CASE("the plane's position and facing count") {
+    const Polygon triangle{{0, 0, 1}, {4, 0, 1}, {0, 4, 2}};
+    CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 0), Point3(0, 1, 0), Point3(1, 0, 0)})) ==
+          Side::back);
+    CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 1), Point3(1, 0, 1), Point3(0, 1, 1)})) ==
+          Side::front);
+    CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 3), Point3(1, 0, 3), Point3(0, 1, 3)})) ==
+          Side::back);
+}
+
+TEST_CASE("every sequence of corners in front, on and behind is classified by all of its corners") {
+    // x + 2y + 3z = 6, and a corner on each of its sides and on it.
+    const SplitPlane<3> plane({Point3(6, 0, 0), Point3(0, 3, 0), Point3(0, 0, 2)});
+    int wrong = 0, cases = 0;
+    for (int count = 3, sequences = 27; count <= 5; ++count, sequences *= 3)
+        for (int sequence = 0; sequence < sequences; ++sequence) {
+            Polygon polygon;
+            std::array<bool, 3> seen{};
+            for (int i = 0, rest = sequence; i < count; ++i, rest /= 3) {
+                const int side = rest % 3;  // 0 behind, 1 on, 2 in front
+                seen[static_cast<std::size_t>(side)] = true;
+                polygon.push_back({6 - 2 * i + side - 1, i, 0});
+            }
+            const Side expected = seen[0] && seen[2] ? Side::across
+                                  : seen[2]          ? Side::front
+                                  : seen[0]          ? Side::back
+                                                     : Side::on;
+            wrong += classify(polygon, plane) != expected;
+            ++cases;
+        }
+    CHECK(cases == 27 + 81 + 243);
+    CHECK(wrong == 0);
+}

@@ -1,0 +1,21 @@
+/// @file
+/// Exercise 3.1, solution.
+#pragma once
+
+#include <span>
+
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
+namespace space {
+
+inline Side classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
+    bool front = false, back = false;
+    for (const Point3& corner : polygon) {
+        const double distance = plane.distance(DoublePoint<3>(corner));
+        front = front || distance > 0.0;
+        back = back || distance < 0.0;
+    }
+    return front && back ? Side::across : front ? Side::front : back ? Side::back : Side::on;
+}
+
+}  // namespace space
