@@ -127,10 +127,17 @@ TEST_CASE("Heinonen's segments are in order from every whole point around and am
 }
 
 TEST_CASE("an eye on the plane of a node loses nothing") {
-    const Tree tree =
-        tree_of({{{0, 0}, {4, 0}}, {{0, 2}, {4, 2}}, {{0, -2}, {4, -2}}, {{6, 1}, {6, 9}}});
+    // Two lie on the first's line, and one on the fourth's: nodes with more fragments than one.
+    const Tree tree = tree_of({{{0, 0}, {4, 0}},
+                               {{0, 2}, {4, 2}},
+                               {{0, -2}, {4, -2}},
+                               {{6, 1}, {6, 9}},
+                               {{-4, 0}, {-2, 0}},
+                               {{-1, 0}, {-2, 0}},
+                               {{6, 12}, {6, 14}}});
+    CHECK(tree.nodes[0].count == 3);
     for (const Point2 eye :
-         {Point2(9, 0), Point2(2, 0), Point2(-3, 2), Point2(6, -5), Point2(6, 0)})
+         {Point2(9, 0), Point2(2, 0), Point2(-3, 2), Point2(6, -5), Point2(6, 0), Point2(5, 5)})
         CHECK(faults(tree, eye, painters_order(tree, eye)) == Faults{});
 }
 
