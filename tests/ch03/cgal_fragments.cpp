@@ -105,9 +105,13 @@ std::optional<Exact2> exact_corner(const FragmentsView<2>& view, const Fragment<
     return point;
 }
 
+Kernel::Vector_3 normal_of(const Corners<3>& polygon) {
+    return CGAL::cross_product(exact(polygon[1]) - exact(polygon[0]), exact(polygon[2]) - exact(polygon[0]));
+}
+
 /// Of the polygon's normal: drawn onto the plane across it, the polygon keeps an area.
 int dominant_axis(const Corners<3>& polygon) {
-    const auto normal = CGAL::cross_product(exact(polygon[1]) - exact(polygon[0]), exact(polygon[2]) - exact(polygon[0]));
+    const Kernel::Vector_3 normal = normal_of(polygon);
     int best = 0;
     for (int axis = 1; axis < 3; ++axis)
         if (CGAL::abs(normal.cartesian(axis)) > CGAL::abs(normal.cartesian(best))) best = axis;
@@ -132,12 +136,11 @@ class Projection {
 
 using Outline = std::vector<Exact2>;
 
-Number doubled_area(const Outline& outline) {
+/// Twice the area as seen along the normal, times the normal's length.
+Number area_along(const Kernel::Vector_3& normal, const std::vector<Exact3d>& corners) {
     Number sum(0);
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Exact2 &p = outline[i], &q = outline[(i + 1) % outline.size()];
-        sum += p.x() * q.y() - q.x() * p.y();
-    }
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        sum += CGAL::cross_product(corners[i - 1] - corners[0], corners[i] - corners[0]) * normal;
     return sum;
 }
 
@@ -269,12 +272,14 @@ TilingReport examine_tiling(const BspTree<3>& tree, Grade grade, std::uint32_t e
         report.fragments += pieces[number].size();
         report.most = std::max<std::uint64_t>(report.most, pieces[number].size());
         const Projection project(polygon);
+        const Kernel::Vector_3 normal = normal_of(polygon);
         const Outline whole{project(exact(polygon[0])), project(exact(polygon[1])), project(exact(polygon[2]))};
 
         std::vector<Outline> outlines;
         Number sum(0);
         for (const auto& [fragment, node] : pieces[number]) {
             Outline outline;
+            std::vector<Exact3d> corners;
             for (std::size_t i = 0; i < fragment->corners.size(); ++i) {
                 const auto corner = exact_corner(all, *fragment, i);
                 if (!corner) {
@@ -285,18 +290,19 @@ TilingReport examine_tiling(const BspTree<3>& tree, Grade grade, std::uint32_t e
                 for (const Step& step : path[node])
                     report.wrong_side += side_of(tree.planes[step.plane].through, *corner) == -step.side;
                 report.wrong_side += side_of(tree.planes[tree.nodes[node].plane].through, *corner) != 0;
+                corners.push_back(*corner);
                 outline.push_back(project(*corner));
                 for (std::size_t e = 0; e < 3; ++e)
                     report.outside += CGAL::orientation(whole[e], whole[(e + 1) % 3], outline.back()) == CGAL::RIGHT_TURN;
             }
             report.not_convex += !turns_left(outline);
-            sum += doubled_area(outline);
+            sum += area_along(normal, corners);
             for (const Outline& other : outlines)
                 report.overlaps += !boxes_apart(outline, other) && !separated_by_edge_of(outline, other) &&
                                    !separated_by_edge_of(other, outline);
             outlines.push_back(std::move(outline));
         }
-        add_area(report, sum, doubled_area(whole));
+        add_area(report, sum, normal.squared_length());
     }
     return report;
 }
@@ -354,28 +360,22 @@ TilingReport examine_tiling(const BspTree<2>& tree, Grade grade) {
 }
 
 std::vector<double> area_errors(const FragmentsView<3>& all) {
-    std::vector<std::optional<Projection>> projections;
+    std::vector<Kernel::Vector_3> normals;
     std::vector<Number> errors;
     for (const Corners<3>& polygon : all.polygons) {
-        errors.emplace_back(0);
-        projections.emplace_back();
-        if (CGAL::collinear(exact(polygon[0]), exact(polygon[1]), exact(polygon[2]))) continue;
-        const Projection& project = projections.back().emplace(polygon);
-        errors.back() -= doubled_area({project(exact(polygon[0])), project(exact(polygon[1])), project(exact(polygon[2]))});
+        normals.push_back(normal_of(polygon));
+        errors.push_back(-normals.back().squared_length());
     }
     for (const Fragment<3>& fragment : all.fragments) {
-        Outline outline;
+        std::vector<Exact3d> corners;
         for (std::size_t i = 0; i < fragment.corners.size(); ++i)
-            outline.push_back((*projections[fragment.polygon])(exact_corner(all, fragment, i).value()));
-        errors[fragment.polygon] += doubled_area(outline);
+            corners.push_back(exact_corner(all, fragment, i).value());
+        errors[fragment.polygon] += area_along(normals[fragment.polygon], corners);
     }
     std::vector<double> result;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-        // What was dropped by the projection: the normal's length over its component.
-        const SplitPlane<3> plane(all.polygons[i]);
-        const double largest = std::max({std::abs(plane.normal.x), std::abs(plane.normal.y), std::abs(plane.normal.z)});
-        const double stretch = largest > 0.0 ? glm::length(plane.normal) / largest : 1.0;
-        result.push_back(0.5 * stretch * std::abs(rounded(errors[i])));
+        const double length = std::sqrt(rounded(normals[i].squared_length()));
+        result.push_back(length > 0.0 ? 0.5 * std::abs(rounded(errors[i])) / length : 0.0);
     }
     return result;
 }
