@@ -93,6 +93,31 @@ TEST_CASE("every grade and choice of splitters gives the naive loop's hits on ra
             }
 }
 
+TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
+    const Scene mount = make_scene("mount:4");
+    const std::vector<Triangle> triangles = mount.mesh.triangles();
+    const auto naive = Naive<FilteredExact>::build(triangles);
+    const auto wrong_rays = [&](Grade grade) {
+        const auto bsp = Bsp<FilteredExact>::build(
+            triangles, {.splitter = SplitterChoice::random, .grade = grade, .thickness_in_roundings = 1000.0});
+        Pcg32 random(3);
+        int wrong = 0;
+        for (int i = 0; i < 10'000; ++i) {  // at points of cuts and edges
+            const auto& fragments = bsp.tree().fragments;
+            const Fragment<3>& fragment = fragments[random.below(static_cast<std::uint32_t>(fragments.size()))];
+            const auto corner = random.below(static_cast<std::uint32_t>(fragment.corners.size()));
+            const Double3 p = fragment.corners[corner].at, q = fragment.corners[(corner + 1) % fragment.corners.size()].at;
+            const Point3 aim(p + random.uniform_double() * (q - p));
+            const Vector3 back(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+            const Ray ray{aim + back, -back};
+            wrong += closest_hit(bsp, ray) != closest_hit(naive, ray);
+        }
+        return wrong;
+    };
+    CHECK(wrong_rays(Grade::thick_float) > 0);
+    CHECK(wrong_rays(Grade::exact) == 0);
+}
+
 TEST_CASE("a tree that would have more fragments than allowed is refused with one line") {
     CHECK_THROWS_AS(Bsp<>::build(soup(100, 1.0f, 6), {.max_fragments = 200}), Error);
 }
