@@ -85,6 +85,20 @@ TEST_CASE("a triangle that reaches behind the eye is cut, not turned inside out"
     CHECK(buffer.at(8, 15).t == Approx(16.0 / 15.0));  // seen at 15/16 of the way down the image plane
 }
 
+TEST_CASE("what lies before the near plane is not drawn, though it has a projection within the picture") {
+    constexpr float e = 0x1p-11f;  // half the near plane's depth
+    CHECK(covered(draw({{{-e, -e, -e}, {e, -e, -e}, {0, e, -e}}})) == 0);
+    // From the near plane's wrong side at the picture's centre down to its lower corners: the part that the plane cuts
+    // off reaches half the way down.
+    const DepthBuffer buffer = draw({{{0, 0, -e}, {-1, -1, -1}, {1, -1, -1}}});
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            INFO("pixel " << x << " " << y);
+            CHECK((buffer.at(x, y).t < infinity) == (y >= 12 && x >= 15 - y && x <= y));
+            CHECK(buffer.at(x, y).t >= near_fraction);
+        }
+}
+
 TEST_CASE("no pixel falls between two triangles with a common edge") {
     // A fan around the picture's centre whose rim lies outside the picture, with irrational corners.
     Pcg32 random(5);
