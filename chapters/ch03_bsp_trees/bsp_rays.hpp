@@ -96,11 +96,12 @@ class Bsp {
   public:
     using Config = BspConfig;
 
-    static Bsp build(std::span<const Triangle> triangles, const Config& config = {}) {
+    template <class Observer = NoBspObserver>
+    static Bsp build(std::span<const Triangle> triangles, const Config& config = {}, Observer&& observer = {}) {
         std::vector<Corners<3>> polygons;
         for (const Triangle& triangle : triangles) polygons.push_back(corners(triangle));
         Bsp bsp;
-        bsp.tree_ = BspBuilder<3>::build(polygons, config);
+        bsp.tree_ = BspBuilder<3, Observer>::build(polygons, config, std::forward<Observer>(observer));
         return bsp;
     }
     const BspTree<3>& tree() const { return tree_; }

@@ -31,7 +31,8 @@ class FragmentRays {
   public:
     FragmentRays(const BspTree<3>& tree, Grade grade);
 
-    /// Whether the ray's line meets a fragment of the polygon, borders included.
+    /// Whether the ray's line meets a fragment, or any fragment of the polygon, borders included.
+    bool meets(const Ray& ray, const Fragment<3>& fragment) const;
     bool meets(const Ray& ray, std::uint32_t polygon) const;
 
     /// Rays from all around at points of edges that two polygons share. Those that hit one of the two should meet a
@@ -47,7 +48,6 @@ class FragmentRays {
         std::array<std::uint32_t, 2> polygons;
     };
     SlippedRays slipped(const std::vector<Target>& targets, std::uint64_t count, std::uint64_t seed) const;
-    bool meets(const Ray& ray, const Fragment<3>& fragment) const;
     /// On which side of the directed edge between two corners the ray passes: the sign of (p - o) x (q - o) . d.
     int side_of_edge(const Ray& ray, const Fragment<3>& fragment, std::size_t p, std::size_t q) const;
 
