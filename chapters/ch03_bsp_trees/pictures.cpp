@@ -1,0 +1,154 @@
+// A closed mesh seen by rays that hit fragments in place of the triangles that those were cut from.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch03_bsp_trees/drawings.hpp"
+#include "chapters/ch03_bsp_trees/sketch.hpp"
+#include "chapters/ch03_bsp_trees/tiling.hpp"
+#include "common/camera.hpp"
+#include "common/image.hpp"
+#include "common/report.hpp"
+#include "common/scene_shapes.hpp"
+
+namespace space {
+namespace {
+
+/// The palette's colours as a picture's pixels: linear.
+constexpr Color sky{0.093f, 0.456f, 0.815f}, yellow{0.871f, 0.768f, 0.054f}, vermillion{0.665f, 0.112f, 0.0f};
+
+/// The mesh's tree in one grade, and its fragments.
+struct Graded {
+    Grade grade;
+    const char* name;
+    BspTree<3> tree;
+    std::optional<FragmentRays> fragments = {};
+};
+
+/// A place on the common edge of two triangles where one of them, or both, have been cut.
+struct Spot {
+    std::array<std::uint32_t, 2> triangles;
+    Double3 at;
+};
+
+/// What the rays of a small window about a spot see.
+struct View {
+    Image image{0, 0};
+    std::uint64_t leaks = 0;
+};
+
+class Microscope {
+  public:
+    Microscope(const std::vector<Triangle>& triangles, const Spot& spot) : triangles_(triangles), spot_(spot) {
+        const auto normal = [&](std::uint32_t i) { return glm::normalize(SplitPlane<3>(corners(triangles[i])).normal); };
+        // From this near, directions in floats tell points apart that are closer than floats on the surface.
+        constexpr double distance = 0.002;
+        camera_.eye = Point3(spot.at + distance * glm::normalize(normal(spot.triangles[0]) + normal(spot.triangles[1])));
+        camera_.target = Point3(spot.at);
+        camera_.field_of_view = static_cast<float>(2.0 * std::atan(0.5 * window / distance) * 180.0 / std::numbers::pi);
+        // Upwards along the edge.
+        for (int i = 0; i < 3; ++i) {
+            const auto& first = corners(triangles[spot.triangles[0]]);
+            const auto& second = corners(triangles[spot.triangles[1]]);
+            if (std::ranges::find(second, first[i]) != second.end() && std::ranges::find(second, first[(i + 1) % 3]) != second.end())
+                camera_.up = glm::normalize(first[(i + 1) % 3] - first[i]);
+        }
+    }
+    static constexpr double window = 0x1p-23;  // a float next to 0.25 is 2^-25 away
+
+    View look(const FragmentRays& fragments, int side) const {
+        View view{.image = Image(side, side)};
+        const CameraFrame frame(camera_);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const Ray ray = camera_ray(camera_, frame, x + 0.5, y + 0.5, side, side);
+                const bool one = fragments.meets(ray, spot_.triangles[0]), other = fragments.meets(ray, spot_.triangles[1]);
+                view.leaks += !one && !other;
+                view.image.at(x, y) = one ? sky : other ? yellow : vermillion;
+            }
+        return view;
+    }
+
+  private:
+    const std::vector<Triangle>& triangles_;
+    Spot spot_;
+    Camera camera_;
+};
+
+/// The corners of fragments that lie on the common edge of two triangles.
+std::vector<Spot> spots(const BspTree<3>& tree) {
+    using Edge = std::array<float, 6>;
+    const auto edge_of = [&](std::uint32_t polygon, int edge) {
+        std::array<Point3, 2> ends{tree.polygons[polygon][edge], tree.polygons[polygon][(edge + 1) % 3]};
+        const auto less = [](const Point3& p, const Point3& q) { return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z}; };
+        if (less(ends[1], ends[0])) std::swap(ends[0], ends[1]);
+        return Edge{ends[0].x, ends[0].y, ends[0].z, ends[1].x, ends[1].y, ends[1].z};
+    };
+    std::map<Edge, std::vector<std::uint32_t>> owners;
+    for (std::uint32_t i = 0; i < tree.polygons.size(); ++i)
+        for (int edge = 0; edge < 3; ++edge) owners[edge_of(i, edge)].push_back(i);
+    std::vector<Spot> found;
+    for (const Fragment<3>& fragment : tree.fragments)
+        for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
+            const Carrier before = fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()].carrier;
+            if (!before.is_original() || fragment.corners[i].carrier.is_original()) continue;
+            const auto& both = owners[edge_of(fragment.polygon, before.edge())];
+            if (both.size() == 2) found.push_back({{both[0], both[1]}, fragment.corners[i].at});
+        }
+    return found;
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------------
+// 3.5 Fragments in place of triangles
+
+void draw_fragments_hit(const Options& options) {
+    const std::vector<Triangle> triangles = teapot(5).triangles();
+    std::vector<Corners<3>> polygons;
+    for (const Triangle& triangle : triangles) polygons.push_back(corners(triangle));
+    std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
+                                  {Grade::ordered_float, "canonical order", {}},
+                                  {Grade::ordered_double, "in double", {}},
+                                  {Grade::exact, "exact", {}}}};
+    for (Graded& g : graded) {
+        g.tree = BspBuilder<3>::build(polygons, {.grade = g.grade});
+        g.fragments.emplace(g.tree, g.grade);
+    }
+
+    // Where the leak is widest: one that canonical order closes, and one that it does not.
+    std::array<Spot, 2> shown;
+    std::array<std::uint64_t, 2> most{0, 0};
+    for (const Spot& spot : spots(graded[0].tree)) {
+        constexpr int coarse = 24;
+        const Microscope microscope(triangles, spot);
+        const std::uint64_t leaks = microscope.look(*graded[0].fragments, coarse).leaks, ordered = microscope.look(*graded[1].fragments, coarse).leaks;
+        if (ordered == 0 && leaks > most[0]) most[0] = leaks, shown[0] = spot;
+        if (std::min(leaks, ordered) > most[1]) most[1] = std::min(leaks, ordered), shown[1] = spot;
+    }
+    fmt::print(stderr, "{} {} {}\n", most[0], most[1], spots(graded[0].tree).size());
+
+    constexpr int side = 150, gap = 8;
+    Svg svg("fig_03_05", "Two places on a teapot's edges, seen by rays that hit fragments in place of triangles, for four grades; leaks are marked",
+            4 * side + 5 * gap, 480);
+    for (std::size_t row = 0; row < shown.size(); ++row) {
+        const Microscope microscope(triangles, shown[row]);
+        for (std::size_t i = 0; i < graded.size(); ++i) {
+            const View view = microscope.look(*graded[i].fragments, side);
+            const auto left = static_cast<float>(gap + static_cast<int>(i) * (side + gap)), top = static_cast<float>(30 + 230 * row);
+            svg.picture({left, top}, {side, side}, view.image, fmt::format("place-{}-{}", row + 1, i + 1));
+            svg.text({left + 0.5f * side, top + side + 20}, graded[i].name, {.size = 16});
+            svg.text({left + 0.5f * side, top + side + 42}, view.leaks ? with_commas(view.leaks) + " leaks" : "no leak",
+                     {.ink = view.leaks ? Ink::vermillion : Ink::quiet, .size = 16});
+        }
+    }
+    write_drawing(options.out, "fig_03_05", svg);
+}
+
+}  // namespace space
