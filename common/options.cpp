@@ -1,52 +1,67 @@
 #include "common/options.hpp"
 
-#include <charconv>
-#include <cstdio>
-#include <cstdlib>
-#include <thread>
-
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+#include <thread>
 
 #include "common/error.hpp"
 
 namespace space {
 namespace {
 
-constexpr unsigned max_threads = 1024;
 constexpr int max_side = 16384;  // pixels; a larger picture is a slip of the finger
 
-/// "640x480" -> width and height.
-std::string parse_size(const std::string& text, Options& options) {
-    int width = 0, height = 0, end = 0;
-    if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) != 2 || std::size_t(end) != text.size() ||
-        width < 1 || height < 1 || width > max_side || height > max_side)
-        return fmt::format("--size {}: give WIDTHxHEIGHT, each from 1 to {}", text, max_side);
-    options.width = width;
-    options.height = height;
-    return {};
+/// Digits and nothing else.
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
 }
 
-/// CLI11 would take -1 and 10^20 for some other number of 64 bits.
-std::string check_seed(const std::string& text) {
-    std::uint64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    if (error == std::errc() && end == text.data() + text.size()) return {};
-    return fmt::format("give a whole number from 0 to 2^64 - 1, not {}", text);
+/// "640x480" -> width and height.
+void parse_size(std::string_view text, Options& options) {
+    const std::size_t cross = std::min(text.find('x'), text.size());
+    const auto width = whole_number(text.substr(0, cross));
+    const auto height = whole_number(text.substr(std::min(cross + 1, text.size())));
+    const auto fits = [](const std::optional<std::uint64_t>& side) { return side && *side >= 1 && *side <= max_side; };
+    if (!fits(width) || !fits(height))
+        throw usage_error(fmt::format("--size {}: give WIDTHxHEIGHT, each from 1 to {}", text, max_side));
+    options.width = static_cast<int>(*width);
+    options.height = static_cast<int>(*height);
 }
 
 }  // namespace
 
+CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low, std::uint64_t high,
+                              std::function<void(std::uint64_t)> set, const std::string& about) {
+    const auto parse = [=](const std::string& text) {
+        const auto number = whole_number(text);
+        if (!number || *number < low || *number > high)
+            throw usage_error(fmt::format("{} {}: give a whole number from {} to {}", name, text, low, high));
+        set(*number);
+    };
+    const bool bounded = high < std::numeric_limits<std::uint64_t>::max();
+    return app.add_option_function<std::string>(name, parse, about)
+        ->type_name(bounded ? fmt::format("{}..{}", low, high) : "N");
+}
+
 void add_common_options(CLI::App& app, Options& options) {
-    app.add_option("--threads", options.threads, "worker threads; default: as many as the machine has")
-        ->check(CLI::Range(1u, max_threads));
-    app.add_option("--seed", options.seed, "seed of everything random")->check(check_seed)->capture_default_str();
+    add_whole_number(
+        app, "--threads", 1, max_threads, [&](std::uint64_t n) { options.threads = static_cast<unsigned>(n); },
+        "worker threads; default: as many as the machine has");
+    add_whole_number(
+        app, "--seed", 0, std::numeric_limits<std::uint64_t>::max(), [&](std::uint64_t n) { options.seed = n; },
+        "seed of everything random")
+        ->default_str(fmt::format("{}", options.seed));
     app.add_option_function<std::string>(
-           "--size",
-           [&options](const std::string& text) {
-               if (const std::string fault = parse_size(text, options); !fault.empty()) throw usage_error(fault);
-           },
-           "picture size in pixels")
+           "--size", [&](const std::string& text) { parse_size(text, options); }, "picture size in pixels")
         ->type_name("WxH")
         ->default_str(fmt::format("{}x{}", options.width, options.height));
 }
@@ -64,7 +79,8 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 Options parse_options(int argc, char** argv, const ProgramInfo& program, const std::function<void(CLI::App&)>& more) {
     Options options = program.defaults;
     CLI::App app(program.about, program.name);
-    app.add_option("--scene", options.scene, "a scene by name (NAME or NAME:SIZE) or a mesh file")->capture_default_str();
+    app.add_option("--scene", options.scene, "a scene by name (NAME or NAME:SIZE) or a mesh file")
+        ->capture_default_str();
     app.add_flag("--small", options.small, "a small run that prints counts only: the same on every machine");
     app.add_flag("--quick", options.quick, "fewer sizes and rounds: minutes instead of a quarter of an hour");
     app.add_option("--out", options.out, "directory for pictures, charts and results.json")->capture_default_str();

@@ -11,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace space {
 
@@ -38,6 +39,13 @@ struct ProgramInfo {
 /// @throws Error (usage) with one line for anything absurd
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
                       const std::function<void(CLI::App&)>& more = {});
+
+inline constexpr unsigned max_threads = 1024;  ///< more is a slip of the finger
+
+/// An option that takes a whole number from `low` to `high` in decimal: CLI11 by itself takes 010 for 8.
+/// `set` gets the number. @return the option, for what CLI11 has to add to it
+CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low, std::uint64_t high,
+                              std::function<void(std::uint64_t)> set, const std::string& about);
 
 /// --threads, --seed and --size, for programs that have other options than a chapter's.
 void add_common_options(CLI::App& app, Options& options);

@@ -21,8 +21,9 @@ struct ChapterOptions : Options {
 ChapterOptions read_options(int argc, char** argv) {
     int samples = 0;
     const auto add_samples = [&](CLI::App& app) {
-        app.add_option("--samples", samples, "rays per pixel and axis; default: 2, with --quick 1")
-            ->check(CLI::Range(1, 16));
+        add_whole_number(
+            app, "--samples", 1, 16, [&](std::uint64_t n) { samples = static_cast<int>(n); },
+            "rays per pixel and axis; default: 2, with --quick 1");
         app.footer(
             "Examples:\n"
             "  ch01_naive_ray_tracing --out pictures             the chapter, in two minutes\n"

@@ -13,7 +13,6 @@
 namespace space {
 namespace {
 
-constexpr unsigned max_threads = 1024;
 constexpr int max_repeat = 10'000;
 
 constexpr const char* formats = R"(
@@ -74,25 +73,28 @@ LabOptions parse_lab_options(int argc, char** argv) {
     auto* rays = app.add_option("--rays", options.rays, "trace these rays; default: through the camera's pixels");
     auto* camera = app.add_option("--camera", camera_numbers,
                                   "eye, target, vertical field of view in degrees; default: the scene's own");
-    auto* diffuse = app.add_option("--diffuse", options.diffuse,
-                                   "trace N rays that leave the camera rays' hits, cosine-distributed (by --seed)");
+    auto* diffuse = add_whole_number(
+        app, "--diffuse", 1, max_rays, [&](std::uint64_t n) { options.diffuse = n; },
+        "trace N rays that leave the camera rays' hits, cosine-distributed (by --seed)");
     add_common_options(app, options.common);
     app.add_option("--structure", structures, "NAME[,NAME...], 'all' or 'list'")->capture_default_str();
     app.add_option("--triangle-test", options.triangle_test, "NAME or 'list'; default: each structure's first");
     app.add_option("--query", query, "the nearest hit, or whether there is any")
         ->check(CLI::IsMember({"closest", "any"}))
         ->capture_default_str();
-    app.add_option("--build-threads", options.build_threads, "for builders that use several; default: as --threads")
-        ->check(CLI::Range(1u, max_threads));
-    app.add_option("--repeat", options.repeat, "timed runs of each build and trace, in turn; their medians count")
-        ->check(CLI::Range(1, max_repeat))
-        ->capture_default_str();
+    add_whole_number(
+        app, "--build-threads", 1, max_threads,
+        [&](std::uint64_t n) { options.build_threads = static_cast<unsigned>(n); },
+        "for builders that use several; default: as --threads");
+    add_whole_number(
+        app, "--repeat", 1, max_repeat, [&](std::uint64_t n) { options.repeat = static_cast<int>(n); },
+        "timed runs of each build and trace, in turn; their medians count")
+        ->default_str(fmt::format("{}", options.repeat));
     app.add_option("--hits", options.hits, "write the answers to this file")->type_name("FILE");
     app.add_option("--json", options.json, "write the measurements to this file")->type_name("FILE");
     app.add_flag("--check", options.check, "compare the answers with naive tracing");
     rays->type_name("FILE")->excludes(camera)->excludes(diffuse)->excludes(app.get_option("--size"));
     camera->type_name("ex,ey,ez,tx,ty,tz,fov");
-    diffuse->type_name("N")->check(CLI::Range(std::size_t{1}, max_rays));
     parse_command_line(app, argc, argv);
 
     options.structures = split(structures);

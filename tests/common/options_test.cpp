@@ -60,6 +60,14 @@ TEST_CASE("every option is understood") {
     CHECK(options.figure == "fig_01_02");
 }
 
+TEST_CASE("numbers are decimal, whatever zeros they begin with") {
+    const Options options = parsed({"--threads", "010", "--seed", "099", "--size", "0064x0048"});
+    CHECK(options.threads == 10);
+    CHECK(options.seed == 99);
+    CHECK(options.width == 64);
+    CHECK(options.height == 48);
+}
+
 TEST_CASE("a program can add options of its own") {
     int depth = 0;
     parsed({"--depth", "4"}, [&](CLI::App& app) { app.add_option("--depth", depth); });
@@ -74,8 +82,15 @@ TEST_CASE("absurd options are refused in one line that names them") {
                                                        {"--threads", "many"},
                                                        {"--threads", "4000"},
                                                        {"--threads"},
+                                                       {"--threads", "0x2"},
+                                                       {"--threads", "+2"},
+                                                       {"--threads", "4294967297"},
                                                        {"--seed", "-1"},
                                                        {"--seed", "x"},
+                                                       {"--seed", "+1"},
+                                                       {"--seed", "0x10"},
+                                                       {"--seed", "1.5"},
+                                                       {"--seed", "18446744073709551616"},
                                                        {"--seed", "99999999999999999999"},
                                                        {"--size", "640"},
                                                        {"--size", "0x480"},
@@ -85,6 +100,12 @@ TEST_CASE("absurd options are refused in one line that names them") {
                                                        {"--size", "16385x1"},
                                                        {"--size", "axb"},
                                                        {"--size", ""},
+                                                       {"--size", "x"},
+                                                       {"--size", "4x"},
+                                                       {"--size", "+4x4"},
+                                                       {"--size", " 4x4"},
+                                                       {"--size", "4x 4"},
+                                                       {"--size", "4x18446744073709551617"},
                                                        {"--seed", "1", "--seed", "2"}};
     for (const auto& words : absurd) {
         const std::string line = refusal(words);

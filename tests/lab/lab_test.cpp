@@ -355,7 +355,8 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
         {mesh + rays + "--camera 0,0,1,0,0,0,45", 2, "--camera"},
         {mesh + rays + "--size 4x3", 2, "--size"},
         {mesh + "--diffuse 0", 2, "--diffuse"},
-        {mesh + "--diffuse -5", 2, "--diffuse"},
+        {mesh + "--diffuse -5", 2, "--diffuse -5"},
+        {mesh + "--diffuse 1e3", 2, "--diffuse 1e3"},
         {mesh + "--camera 0,0,9,0,0,8,45,0", 2, "--camera"},
         {mesh + "--camera 0,0,9,0,0,8", 2, "--camera"},
         {mesh + "--camera nan,0,9,0,0,8,45", 2, "nan"},
@@ -372,8 +373,12 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
         {mesh + "--threads -1", 2, "--threads"},
         {mesh + "--threads 100000", 2, "--threads"},
         {mesh + "--build-threads 0", 2, "--build-threads"},
+        {mesh + "--build-threads 1.5", 2, "--build-threads 1.5"},
         {mesh + "--repeat 0", 2, "--repeat"},
+        {mesh + "--repeat -1", 2, "--repeat -1"},
+        {mesh + "--repeat 0x3", 2, "--repeat 0x3"},
         {mesh + "--seed x", 2, "--seed"},
+        {mesh + "--seed -1", 2, "--seed -1"},
         {mesh + "--no-such-option", 2, "--no-such-option"},
     };
     for (const Wrong& wrong : wrongs) {
