@@ -14,7 +14,6 @@
 #include "chapters/ch03_bsp_trees/tiling.hpp"
 #include "common/camera.hpp"
 #include "common/image.hpp"
-#include "common/report.hpp"
 #include "common/scene_shapes.hpp"
 
 namespace space {
@@ -34,6 +33,7 @@ struct Graded {
 /// A place on the common edge of two triangles where one of them, or both, have been cut.
 struct Spot {
     std::array<std::uint32_t, 2> triangles;
+    std::uint32_t cut;  ///< the one of them whose fragment has a corner here
     Double3 at;
 };
 
@@ -99,7 +99,7 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
             const Carrier before = fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()].carrier;
             if (!before.is_original() || fragment.corners[i].carrier.is_original()) continue;
             const auto& both = owners[edge_of(fragment.polygon, before.edge())];
-            if (both.size() == 2) found.push_back({{both[0], both[1]}, fragment.corners[i].at});
+            if (both.size() == 2) found.push_back({{both[0], both[1]}, fragment.polygon, fragment.corners[i].at});
         }
     return found;
 }
@@ -125,26 +125,40 @@ void draw_fragments_hit(const Options& options) {
     // Where the leak is widest: one that canonical order closes, and one that it does not.
     std::array<Spot, 2> shown;
     std::array<std::uint64_t, 2> most{0, 0};
+    const std::vector<Spot> in_order = spots(graded[1].tree);
+    const auto both_cut = [&](const Spot& spot) {
+        const auto here = [&](const Spot& other) {
+            return other.triangles == spot.triangles && other.cut != spot.cut && glm::distance(other.at, spot.at) < Microscope::window;
+        };
+        return std::ranges::any_of(in_order, here);
+    };
     for (const Spot& spot : spots(graded[0].tree)) {
         constexpr int coarse = 24;
         const Microscope microscope(triangles, spot);
-        const std::uint64_t leaks = microscope.look(*graded[0].fragments, coarse).leaks, ordered = microscope.look(*graded[1].fragments, coarse).leaks;
-        if (ordered == 0 && leaks > most[0]) most[0] = leaks, shown[0] = spot;
-        if (std::min(leaks, ordered) > most[1]) most[1] = std::min(leaks, ordered), shown[1] = spot;
+        const auto leaks_in = [&](std::size_t grade) { return microscope.look(*graded[grade].fragments, coarse).leaks; };
+        const std::uint64_t leaks = leaks_in(0);
+        if (leaks <= std::min(most[0], most[1])) continue;
+        const std::uint64_t ordered = leaks_in(1), still = std::min(leaks, ordered);
+        const bool closed = ordered == 0 && leaks > most[0] && both_cut(spot), open = still > most[1] && !both_cut(spot);
+        if ((!closed && !open) || leaks_in(3) > 0) continue;  // at a vertex, where other triangles are about
+        if (closed) most[0] = leaks, shown[0] = spot;
+        if (open) most[1] = still, shown[1] = spot;
     }
-    fmt::print(stderr, "{} {} {}\n", most[0], most[1], spots(graded[0].tree).size());
 
     constexpr int side = 150, gap = 8;
     Svg svg("fig_03_05", "Two places on a teapot's edges, seen by rays that hit fragments in place of triangles, for four grades; leaks are marked",
-            4 * side + 5 * gap, 480);
+            4 * side + 5 * gap, 524);
+    constexpr std::array titles{"an edge at which both triangles are cut", "an edge at which only one is cut: a T-junction"};
     for (std::size_t row = 0; row < shown.size(); ++row) {
         const Microscope microscope(triangles, shown[row]);
+        svg.text({320, static_cast<float>(22 + 262 * row)}, titles[row], {.bold = true});
         for (std::size_t i = 0; i < graded.size(); ++i) {
             const View view = microscope.look(*graded[i].fragments, side);
-            const auto left = static_cast<float>(gap + static_cast<int>(i) * (side + gap)), top = static_cast<float>(30 + 230 * row);
+            const auto left = static_cast<float>(gap + static_cast<int>(i) * (side + gap)), top = static_cast<float>(38 + 262 * row);
             svg.picture({left, top}, {side, side}, view.image, fmt::format("place-{}-{}", row + 1, i + 1));
+            svg.rect({left, top}, {side, side}, {.stroke = Ink::quiet});
             svg.text({left + 0.5f * side, top + side + 20}, graded[i].name, {.size = 16});
-            svg.text({left + 0.5f * side, top + side + 42}, view.leaks ? with_commas(view.leaks) + " leaks" : "no leak",
+            svg.text({left + 0.5f * side, top + side + 42}, view.leaks ? fmt::format("{:.1f} % leak", 100.0 * static_cast<double>(view.leaks) / (side * side)) : "no leak",
                      {.ink = view.leaks ? Ink::vermillion : Ink::quiet, .size = 16});
         }
     }
