@@ -288,6 +288,8 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     if (options.triangle_test == "list") return list_triangle_tests(structures);
     const std::vector<Choice> chosen = choose(structures, options);
     if (!options.hits.empty() && chosen.size() != 1) throw usage_error("--hits needs exactly one structure");
+    for (const auto& output : {options.hits, options.json})
+        if (!output.empty()) check_writable(output);
 
     const Scene scene = load(options);
     const std::vector<Triangle> triangles = scene.mesh.triangles();

@@ -120,4 +120,23 @@ TEST_CASE("a directory that cannot be made is an error that names it") {
     CHECK(directory.entries() == 1);
 }
 
+TEST_CASE("what will not be writable is refused beforehand as it would be later, and what will be leaves no trace") {
+    const TemporaryDirectory directory;
+    const auto old = directory.path() / "old";
+    write_file(old, "old");
+    for (const auto& file : {old, directory.path() / "new", directory.path() / "one" / "two" / "new"})
+        check_writable(file);
+    CHECK(directory.entries() == 1);
+    CHECK(read_file(old) == "old");
+
+    for (const std::filesystem::path& file :
+         {directory.path(), old / "new", old / "below" / "new", directory.path() / "one" / std::string(300, 'x'),
+          std::filesystem::path("/dev/full"), std::filesystem::path("/proc/none/file")}) {
+        const std::string line = error_of(ExitCode::bad_output, [&] { check_writable(file); });
+        CHECK(directory.entries() == 1);  // no "one"
+        CHECK(line == error_of(ExitCode::bad_output, [&] { write_file(file, "x"); }));
+        std::filesystem::remove(directory.path() / "one");
+    }
+}
+
 }  // namespace space

@@ -332,7 +332,7 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
     write_rays(bench / "rays", std::array{ray_down(0)});
     const std::string rays = "--rays " + (bench / "rays").string() + " ";
     const std::string outputs =
-        fmt::format("--hits {} --json {} ", (bench / "hits").string(), (bench / "json").string());
+        fmt::format("--hits {} --json {} ", (bench / "new/hits").string(), (bench / "new/json").string());
     struct Wrong {
         std::string arguments;
         int code;
@@ -390,8 +390,7 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
         CHECK(ended.err.starts_with("lab: "));
         CHECK(lines(ended.err) == 1);
         CHECK(ended.err.find(wrong.names) != std::string::npos);
-        CHECK(!std::filesystem::exists(bench / "hits"));
-        CHECK(!std::filesystem::exists(bench / "json"));
+        CHECK(!std::filesystem::exists(bench / "new"));
     }
     const Ended two = run(lab + mesh + rays + "--structure naive,naive --hits " + (bench / "hits").string());
     CHECK(two.code == 2);
@@ -399,7 +398,9 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
     CHECK(!std::filesystem::exists(bench / "hits"));
 }
 
-TEST_CASE("a file that cannot be written is an error, and no part of it is left") {
+TEST_CASE(
+    "a file that cannot be written is an error before anything is measured, or on a full disk after, and no part of it "
+    "is left") {
     const Workbench bench;
     write_ply(bench / "row.ply", row_of_triangles(3));
     write_rays(bench / "rays", random_rays(100));
@@ -411,9 +412,10 @@ TEST_CASE("a file that cannot be written is an error, and no part of it is left"
         return std::distance(begin(all), end(all));
     };
     const auto before = files();
-    const auto fails = [&](const std::string& line) {
+    const auto fails = [&](const std::string& line, bool at_once) {
         INFO(line);
         const Ended ended = run(line);
+        CHECK(ended.out.empty() == at_once);
         INFO(ended.err);
         CHECK(ended.code == 4);
         CHECK(ended.err.starts_with("lab: cannot "));
@@ -421,11 +423,11 @@ TEST_CASE("a file that cannot be written is an error, and no part of it is left"
         CHECK(files() == before);
     };
     for (const char* option : {"--hits", "--json"}) {
-        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "a file/x").string()));  // a file in a file
-        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "").string()));          // a directory
-        fails(fmt::format("{} {} /dev/full", run_it, option));                            // no regular file
+        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "a file/x").string()), true);  // in a file
+        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "").string()), true);          // a directory
+        fails(fmt::format("{} {} /dev/full", run_it, option), true);                            // no regular file
         // A full disk: no file may grow beyond 512 bytes. (A full disk sends no signal; the limit's is ignored.)
-        fails(fmt::format("trap '' XFSZ; ulimit -f 1; {} {} {}", run_it, option, (bench / "out").string()));
+        fails(fmt::format("trap '' XFSZ; ulimit -f 1; {} {} {}", run_it, option, (bench / "out").string()), false);
     }
     CHECK(std::filesystem::is_character_file("/dev/full"));
 }
