@@ -1,0 +1,134 @@
+/// Chapter 3: BSP trees with polygon splitting, by six choices of splitters and in four grades of care.
+/// Run   ch03_bsp_trees --out pictures
+/// Draw  ch03_bsp_trees --figure fig_03_01 --out figures
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "chapters/ch03_bsp_trees/figures.hpp"
+#include "chapters/ch03_bsp_trees/measurements.hpp"
+#include "chapters/ch03_bsp_trees/painter.hpp"
+#include "common/error.hpp"
+#include "common/report.hpp"
+
+namespace space {
+namespace {
+
+struct ChapterOptions : Options {
+    BspConfig tree = {};
+};
+
+ChapterOptions read_options(int argc, char** argv) {
+    BspConfig tree{.max_fragments = max_scene_fragments};
+    const auto add_tree = [&](CLI::App& app) {
+        std::map<std::string, SplitterChoice> splitters;
+        for (const Method& method : methods)
+            if (method.straddlers == Straddlers::split) splitters.emplace(method.name, method.splitter);
+        app.add_option("--splitter", tree.splitter, "how the pictures' tree chooses its planes")
+            ->transform(CLI::CheckedTransformer(splitters).description(""))
+            ->type_name("first|random|balanced|fewest|weighted|free");
+        app.add_option("--max-fragments", tree.max_fragments, "give the pictures' tree up beyond")
+            ->check(CLI::Range(std::size_t{1}, max_scene_fragments))
+            ->capture_default_str();
+        app.footer(
+            "Examples:\n"
+            "  ch03_bsp_trees --out pictures                        the chapter, in some minutes\n"
+            "  ch03_bsp_trees --quick --scene stadium --splitter free\n"
+            "  ch03_bsp_trees --figure all --out figures");
+    };
+    ChapterOptions options{parse_options(argc, argv,
+                                         {.name = "ch03_bsp_trees",
+                                          .about = "Chapter 3: BSP trees with polygon splitting",
+                                          .defaults = {.scene = "room:3", .width = 240, .height = 180}},
+                                         add_tree)};
+    options.tree = tree;
+    if (options.small) options.width = 32, options.height = 24;
+    if (options.quick) options.width /= 2, options.height /= 2;
+    return options;
+}
+
+/// The scene by rays through its tree and by the painter; how many pixels are wrong.
+std::uint64_t draw_pictures(const ChapterOptions& options) {
+    // [pictures]
+    const Scene scene = make_scene(options.scene, options.seed, options.small);
+    const std::vector<Triangle> triangles = scene.mesh.triangles();
+    const RenderSettings settings{
+        .width = options.width, .height = options.height, .threads = options.threads};
+    const Bsp<> bsp = Bsp<>::build(triangles, options.tree);
+
+    Progress tracing("rays through the tree", static_cast<std::size_t>(settings.height));
+    const Rendering by_tree = render(scene, bsp, settings, &tracing);
+    Progress naively("the same, naively", static_cast<std::size_t>(settings.height));
+    const Rendering by_all = render(scene, Naive<>::build(triangles), settings, &naively);
+
+    const DepthBuffer painted = paint(bsp.tree(), options.tree.grade, scene.camera, options.width, options.height);
+    const DepthBuffer nearest = z_buffer(triangles, scene.camera, options.width, options.height);
+    // [pictures]
+
+    std::uint64_t other_pixels = 0;
+    for (int y = 0; y < options.height; ++y)
+        for (int x = 0; x < options.width; ++x) other_pixels += by_tree.image.at(x, y) != by_all.image.at(x, y);
+    const Differences painter = differences(painted, nearest);
+
+    print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
+                              with_commas(triangles.size()), options.width, options.height));
+    Table table({"rays and shadow rays", "tree", "naive"});
+    const std::uint64_t rays = by_tree.counts.camera_rays + by_tree.counts.shadow_rays;
+    const auto row = [&](const char* what, std::uint64_t of_tree, std::uint64_t of_all) {
+        table.row({what, fmt::format("{:.1f}", double(of_tree) / double(rays)),
+                   fmt::format("{:.1f}", double(of_all) / double(rays))});
+    };
+    const TraversalCounts &of_tree = by_tree.counts.traversal, &of_all = by_all.counts.traversal;
+    row("nodes per ray", of_tree.nodes_visited, of_all.nodes_visited);
+    row("ray-triangle tests per ray", of_tree.triangles_tested, of_all.triangles_tested);
+    table.print();
+    fmt::print(
+        "\nThe pictures differ in {} of {} pixels. The painter, who knows no depths, shows another triangle\n"
+        "than the z-buffer in {}; in {} more, two triangles lie at the same depth.\n",
+        with_commas(other_pixels), with_commas(painter.pixels), with_commas(painter.wrong),
+        with_commas(painter.same_depth));
+
+    write_png(options.out / "ch03_tree.png", by_tree.image);
+    write_png(options.out / "ch03_painter.png", picture_of(scene, painted));
+    return other_pixels + painter.wrong;
+}
+
+int run(int argc, char** argv) {
+    const ChapterOptions options = read_options(argc, argv);
+    if (options.figure) return make_figures(chapter03_figures(), options);
+    const bool times = !options.small;  // they are no test's business
+
+    std::uint64_t wrong = draw_pictures(options);
+    Measurements measured;
+    print_methods(measured.methods = measure_methods(options.scene, options), times);
+    print_scenes(measured.scenes = measure_scenes(options), times);
+    print_crossings(measured.crossings = measure_crossings(options));
+    print_grades(measured.grades = measure_grades(options), times);
+    print_growth(measured.growth = measure_growth(options), times);
+    wrong += wrong_answers(measured);
+
+    const Results results{"ch03_bsp_trees", options.small, answer_claims(measured)};
+    write_results(options.out / "results.json", results);
+    if (times) {
+        for (const Chart& chart : {fragments_chart(measured.growth), build_chart(measured.growth),
+                                   grades_chart(measured.grades), rays_chart(measured.growth)})
+            write_chart(options.out, chart);
+        print_heading("The sources' claims");
+        for (const ClaimAnswer& answer : results.answers)
+            fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
+    }
+    fmt::print("\n{} wrong answers.\n", wrong);
+    return static_cast<int>(wrong ? ExitCode::wrong_answer : ExitCode::ok);
+}
+
+}  // namespace
+}  // namespace space
+
+int main(int argc, char** argv) {
+    return space::run_program("ch03_bsp_trees", space::run, argc, argv);
+}

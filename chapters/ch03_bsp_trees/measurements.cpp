@@ -1,0 +1,377 @@
+#include "chapters/ch03_bsp_trees/measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/parallel.hpp"
+#include "common/progress.hpp"
+#include "common/report.hpp"
+#include "common/scene.hpp"
+#include "common/scene_shapes.hpp"
+
+namespace space {
+namespace {
+
+/// Counts what goes where; what is chosen and cut does not matter.
+struct PlacedCounter : NoBspObserver {
+    std::uint64_t count = 0;
+
+    template <int D>
+    void placed(const Fragment<D>&, Side) {
+        ++count;
+    }
+};
+
+Point3 in_cube(Pcg32& random) {
+    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    return {x, y, z};
+}
+
+}  // namespace
+
+Amounts amounts(const Options& options) {
+    if (options.small)
+        return {.sizes = 3, .max_classified = 2'000'000, .max_fragments = 20'000, .rays = 100,
+                .edge_rays = 2'000, .rounds = 1};
+    if (options.quick)
+        return {.sizes = 5, .max_classified = 10'000'000, .max_fragments = 100'000, .rays = 300,
+                .edge_rays = 20'000, .rounds = 3};
+    return {.sizes = 7, .max_classified = 200'000'000, .max_fragments = 500'000, .rays = 1'000,
+            .edge_rays = 1'000'000, .rounds = 5};
+}
+
+std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
+                                  std::uint64_t seed) {
+    Aabb box;
+    for (const Triangle& triangle : triangles) box.extend(bounds(triangle));
+    const Double3 centre(box.centroid()), half = 0.5 * Double3(box.extent());
+    Pcg32 random(seed);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        Double3 away;
+        do away = Double3(in_cube(random));
+        while (glm::length(away) > 1.0 || glm::length(away) < 0.01);
+        const Point3 origin(centre + 2.0 * glm::length(half) * glm::normalize(away));
+        const Point3 aim(centre + half * Double3(in_cube(random)));
+        rays.push_back({.origin = origin, .direction = aim - origin});
+    }
+    return rays;
+}
+
+namespace {
+
+/// What is built, and what its answers are compared with.
+struct TreeTask {
+    std::string scene;
+    std::vector<Triangle> triangles;
+    std::vector<Ray> rays;
+    std::vector<std::optional<Hit>> truth;
+
+    TreeTask(std::string name, std::vector<Triangle> all, const Options& options)
+        : scene(std::move(name)), triangles(std::move(all)),
+          rays(rays_from_around(triangles, amounts(options).rays, options.seed)) {
+        const Naive<> naive = Naive<>::build(triangles);
+        truth.resize(rays.size());
+        parallel_for(rays.size(), options.threads, 16,
+                     [&](std::size_t i) { truth[i] = closest_hit(naive, rays[i]); });
+    }
+};
+
+/// @throws Error where the tree would have more than max_fragments
+TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments) {
+    const BspConfig config{.splitter = method.splitter, .straddlers = method.straddlers,
+                           .max_fragments = max_fragments};
+    PlacedCounter counter;
+    Stopwatch stopwatch;
+    const auto bsp = Bsp<>::build(task.triangles, config, counter);
+    TreePoint point{.scene = task.scene, .method = std::string(method.name)};
+    point.build_ms = stopwatch.lap().count();
+    point.polygons = task.triangles.size();
+    point.nodes = bsp.tree().nodes.size();
+    point.fragments = bsp.tree().fragments.size();
+    point.depth = bsp.tree().depth();
+    point.placed = counter.count;
+
+    std::vector<std::uint64_t> pieces(task.triangles.size());
+    for (const Fragment<3>& fragment : bsp.tree().fragments)
+        point.most_pieces = std::max(point.most_pieces, ++pieces[fragment.polygon]);
+
+    TraversalCounts counts;
+    for (std::size_t i = 0; i < task.rays.size(); ++i)
+        point.wrong += bsp.closest_hit(task.rays[i], counts) != task.truth[i];
+    point.rays = task.rays.size();
+    point.nodes_visited = counts.nodes_visited;
+    point.triangles_tested = counts.triangles_tested;
+    return point;
+}
+
+// ------------------------------------------------------------------------------------------------
+// Growth
+
+/// Corners anywhere in the unit cube: every plane cuts a good part of all triangles.
+std::vector<Triangle> big_triangles(std::uint32_t count, std::uint64_t seed) {
+    Pcg32 random(seed);
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Point3 a = in_cube(random), b = in_cube(random), c = in_cube(random);
+        triangles.push_back({a, b, c});
+    }
+    return triangles;
+}
+
+/// One behind the other, the farthest first, each a little larger than the one before it.
+std::vector<Triangle> stack(std::uint32_t count, std::uint64_t) {
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto z = static_cast<float>(i) / static_cast<float>(count), r = 1.0f + z;
+        triangles.push_back({{-r, -r, z}, {r, -r, z}, {0.0f, r, z}});
+    }
+    return triangles;
+}
+
+template <const char* name>
+std::vector<Triangle> named(std::uint32_t size, std::uint64_t seed) {
+    return make_scene(fmt::format("{}:{}", name, size), seed).mesh.triangles();
+}
+constexpr char soup[] = "soup", boxes[] = "boxes", icosphere_scene[] = "icosphere";
+
+/// From about 100 polygons to 100,000 in half decades, where they can be had.
+struct GrowingScene {
+    const char* name;
+    std::vector<std::uint32_t> sizes;
+    std::vector<Triangle> (*make)(std::uint32_t size, std::uint64_t seed);
+};
+const std::vector<GrowingScene>& growing_scenes() {
+    static const std::vector<GrowingScene> scenes{
+        {"soup", {100, 316, 1'000, 3'162, 10'000, 31'623, 100'000}, named<soup>},
+        {"big triangles", {50, 100, 200, 400, 800}, big_triangles},
+        {"boxes", {8, 26, 83, 263, 832, 2'635, 8'332}, named<boxes>},
+        {"teapot", {1, 2, 3, 6, 11, 19, 34},
+         [](std::uint32_t detail, std::uint64_t) { return teapot(detail).triangles(); }},
+        {"icosphere", {2, 4, 7, 13, 22, 40, 71}, named<icosphere_scene>},
+        {"stack", {100, 316, 1'000, 3'162, 10'000, 31'623, 100'000}, stack},
+    };
+    return scenes;
+}
+
+/// How many polygons are held against planes: once where they are placed, and for each candidate.
+std::uint64_t classified(const Method& method, std::uint64_t placed) {
+    const bool tries = method.splitter != SplitterChoice::first &&
+                       method.splitter != SplitterChoice::random;
+    return placed * (tries ? 1 + BspConfig{}.candidates : 1);
+}
+
+/// Placements of the next tree: as from the last two, at least linear; quadratic after one.
+std::uint64_t next_placed(const std::vector<TreePoint>& points, std::size_t polygons) {
+    const TreePoint& last = points.back();
+    const auto exponent_between = [](const TreePoint& a, const TreePoint& b) {
+        return std::log(double(b.placed) / double(a.placed)) /
+               std::log(double(b.polygons) / double(a.polygons));
+    };
+    const double exponent =
+        points.size() < 2 ? 2.0 : std::max(1.0, exponent_between(points.end()[-2], last));
+    return static_cast<std::uint64_t>(double(last.placed) *
+                                      std::pow(double(polygons) / double(last.polygons), exponent));
+}
+
+/// Adds the next tree to the series, or the reason why it ends here.
+void grow(Growth& growth, const Method& method, const TreeTask& task, const Amounts& limits) {
+    if (!growth.points.empty()) {
+        const auto work = classified(method, next_placed(growth.points, task.triangles.size()));
+        if (work > limits.max_classified) {
+            growth.stopped = fmt::format("{} would take some {:.1g} classifications",
+                                         with_commas(task.triangles.size()), double(work));
+            return;
+        }
+    }
+    try {
+        growth.points.push_back(measure_tree(task, method, limits.max_fragments));
+    } catch (const Error&) {
+        growth.stopped = fmt::format("{} have more than {} fragments",
+                                     with_commas(task.triangles.size()),
+                                     with_commas(limits.max_fragments));
+    }
+}
+
+constexpr bool grows(const Method& method) { return method.straddlers == Straddlers::split; }
+
+}  // namespace
+
+std::vector<Growth> measure_growth(const Options& options) {
+    const Amounts limits = amounts(options);
+    std::vector<Growth> all;
+    Progress progress("growth", growing_scenes().size() * limits.sizes * (methods.size() - 1));
+    for (const GrowingScene& scene : growing_scenes()) {
+        const std::size_t first = all.size(), sizes = std::min(limits.sizes, scene.sizes.size());
+        for (const Method& method : methods)
+            if (grows(method)) all.push_back({.scene = scene.name, .method = std::string(method.name)});
+        for (std::size_t i = 0; i < limits.sizes; ++i) {
+            const bool ended = i >= sizes || std::all_of(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(), [](const Growth& g) {
+                return !g.stopped.empty();
+            });
+            if (ended) {
+                progress.step(methods.size() - 1);
+                continue;
+            }
+            const TreeTask task(scene.name, scene.make(scene.sizes[i], options.seed), options);
+            std::size_t series = first;
+            for (const Method& method : methods) {
+                if (!grows(method)) continue;
+                Growth& growth = all[series++];
+                if (growth.stopped.empty()) grow(growth, method, task, limits);
+                progress.step();
+            }
+        }
+    }
+    return all;
+}
+
+const Growth& growth_of(const std::vector<Growth>& growths, std::string_view scene,
+                        std::string_view method) {
+    for (const Growth& growth : growths)
+        if (growth.scene == scene && growth.method == method) return growth;
+    throw std::out_of_range(fmt::format("no growth of {} by {}", scene, method));
+}
+
+// ------------------------------------------------------------------------------------------------
+// Scenes of one size
+
+std::vector<TreePoint> measure_methods(const std::string& scene, const Options& options) {
+    const TreeTask task(scene, make_scene(scene, options.seed, options.small).mesh.triangles(), options);
+    std::vector<TreePoint> points;
+    Progress progress("trees of " + scene, methods.size());
+    for (const Method& method : methods) {
+        points.push_back(measure_tree(task, method, max_scene_fragments));
+        progress.step();
+    }
+    return points;
+}
+
+std::vector<TreePoint> measure_scenes(const Options& options) {
+    std::vector<const char*> scenes{"sphereflake", "lattice", "stadium"};
+    if (!options.small) scenes.insert(scenes.end(), {"building:1", "bunny", "dragon_48k"});
+    std::vector<TreePoint> points;
+    Progress progress("trees of scenes", 3 * scenes.size());
+    for (const char* name : scenes) {
+        std::optional<Scene> scene;
+        try {
+            scene = make_scene(name, options.seed, options.small);
+        } catch (const Error&) {  // a file that this machine does not have
+            progress.step(3);
+            continue;
+        }
+        const TreeTask task(name, scene->mesh.triangles(), options);
+        for (const Method& method : methods)
+            if (method.name == "weighted" || method.name == "free" || method.name == "shared") {
+                points.push_back(measure_tree(task, method, max_scene_fragments));
+                progress.step();
+            }
+    }
+    return points;
+}
+
+// ------------------------------------------------------------------------------------------------
+// Rays across planes
+
+namespace {
+
+/// The sign of a slope, 0 where double can't tell: as in cross_plane.
+int slope_sign(const Ray& ray, const SplitPlane<3>& plane) {
+    const Double3 direction(ray.direction);
+    const double slope = glm::dot(plane.normal, direction);
+    const double error = 16.0 * 0x1p-53 * plane.size * SplitPlane<3>::one_norm(direction);
+    return std::abs(slope) <= error ? 0 : slope > 0.0 ? 1 : -1;
+}
+
+}  // namespace
+
+std::vector<Crossings> measure_crossings(const Options& options) {
+    std::vector<Crossings> all;
+    for (const char* name : {"soup", "room", "lattice"}) {
+        const Scene scene = make_scene(name, options.seed, options.small);
+        const std::vector<Triangle> triangles = scene.mesh.triangles();
+        const auto bsp = Bsp<>::build(triangles);
+        const BspTree<3>& tree = bsp.tree();
+        Crossings crossings{.scene = name};
+        TraversalCounts counts;
+        for (const Ray& ray : rays_from_around(triangles, amounts(options).rays, options.seed)) {
+            ++crossings.rays;
+            front_to_back(tree, ray, counts, [&](const BspTree<3>::Node& node) {
+                const int side = tree.side_of(ray.origin, node);
+                const int slope = slope_sign(ray, tree.planes[node.plane]);
+                ++crossings.crossed;
+                crossings.both += node.front != tree.none && node.back != tree.none;
+                crossings.undecided += slope == 0;
+                crossings.contradicted += slope != 0 && side == slope;  // leads away from the plane
+                return double{infinity};
+            });
+        }
+        crossings.visits = counts.nodes_visited;
+        all.push_back(crossings);
+    }
+    return all;
+}
+
+// ------------------------------------------------------------------------------------------------
+// The four grades
+
+std::vector<GradePoint> measure_grades(const Options& options) {
+    const Amounts limits = amounts(options);
+    std::vector<const char*> scenes{"sphereflake"};
+    if (!options.small) scenes.insert(scenes.end(), {"lattice:2", "bunny"});
+    std::vector<GradePoint> points;
+    Progress progress("grades", grade_names.size() * scenes.size());
+    for (const char* name : scenes) {
+        std::optional<Scene> scene;
+        try {
+            scene = make_scene(name, options.seed, options.small);
+        } catch (const Error&) {
+            progress.step(grade_names.size());
+            continue;
+        }
+        std::vector<Corners<3>> polygons;
+        for (const Triangle& triangle : scene->mesh.triangles()) polygons.push_back(corners(triangle));
+
+        std::vector<std::function<void()>> builds;
+        std::vector<BspTree<3>> trees(grade_names.size());
+        for (std::size_t i = 0; i < grade_names.size(); ++i)
+            builds.push_back([&, i] {
+                trees[i] = BspBuilder<3>::build(polygons, {.grade = grade_names[i].second});
+            });
+        const std::vector<double> build_ms = interleaved_medians(builds, limits.rounds);
+        for (std::size_t i = 0; i < grade_names.size(); ++i) {
+            const auto [grade_name, grade] = grade_names[i];
+            const FragmentRays rays(trees[i], grade);
+            points.push_back({.scene = name, .grade = grade_name, .nodes = trees[i].nodes.size(),
+                              .fragments = trees[i].fragments.size(),
+                              .tiling = measure_tiling(trees[i], grade),
+                              .old_edges = rays.at_old_edges(limits.edge_rays, options.seed),
+                              .cuts = rays.at_cuts(limits.edge_rays, options.seed),
+                              .build_ms = build_ms[i]});
+            trees[i] = {};
+            progress.step();
+        }
+    }
+    return points;
+}
+
+std::uint64_t wrong_answers(const Measurements& measured) {
+    std::uint64_t wrong = 0;
+    for (const TreePoint& point : measured.methods) wrong += point.wrong;
+    for (const TreePoint& point : measured.scenes) wrong += point.wrong;
+    for (const Growth& growth : measured.growth)
+        for (const TreePoint& point : growth.points) wrong += point.wrong;
+    for (const Crossings& crossings : measured.crossings) wrong += crossings.contradicted;
+    for (const GradePoint& point : measured.grades)
+        if (point.grade == "exact")
+            wrong += (point.tiling.area_error != 0.0) + point.tiling.cracks + point.old_edges.slipped +
+                     point.cuts.slipped;
+    return wrong;
+}
+
+}  // namespace space

@@ -1,0 +1,109 @@
+/// @file
+/// One scene drawn twice: fragments in the painter's order, the nearest last and with no depths to
+/// compare, and triangles in any order into a z-buffer. Both cover the pixels whose rays hit, by
+/// exact arithmetic, so that the pictures are the same where the order is right.
+#pragma once
+
+#include <cstdint>
+
+#include "chapters/ch01_naive_ray_tracing/rasteriser.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch03_bsp_trees/tiling.hpp"
+
+namespace space {
+
+/// Calls pixel(x, y, ray) for the pixels around the corners' picture: for all of them where a
+/// corner lies beside or behind the eye, and so has none.
+template <class Corners, class Pixel>
+void for_pixels_around(const Corners& corners, const Camera& camera, int width, int height,
+                       const Pixel& pixel) {
+    const CameraFrame frame(camera);
+    const double near = near_fraction * glm::distance(Double3(camera.eye), Double3(camera.target));
+    glm::dvec2 low(width, height), high(0.0);
+    for (const Double3& corner : corners) {
+        const Double3 seen = world_to_camera(camera, frame, corner);
+        const bool behind = depth(seen) < near;
+        const glm::dvec2 at = camera_to_pixel(frame, seen, width, height);
+        low = behind ? glm::dvec2(0.0) : glm::min(low, at - 1.0);  // a pixel's room for rounding
+        high = behind ? glm::dvec2(width, height) : glm::max(high, at + 1.0);
+    }
+    low = glm::max(low, 0.0);
+    high = glm::min(high, glm::dvec2(width, height));
+    for (int y = static_cast<int>(low.y); y < high.y; ++y)
+        for (int x = static_cast<int>(low.x); x < high.x; ++x)
+            pixel(x, y, camera_ray(camera, frame, x + 0.5, y + 0.5, width, height));
+}
+
+// [painter]
+/// What each pixel shows when the fragments are laid one over the other, back to front.
+inline DepthBuffer paint(const BspTree<3>& tree, Grade grade, const Camera& camera, int width,
+                         int height) {
+    const FragmentRays covers(tree, grade);
+    DepthBuffer picture(width, height);
+    tree.back_to_front(camera.eye, [&](const Fragment<3>& fragment) {
+        const auto& [a, b, c] = tree.polygons[fragment.polygon];
+        std::vector<Double3> corners;
+        for (const Corner<3>& corner : fragment.corners) corners.push_back(corner.at);
+        for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
+            auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
+            if (!hit || !covers.meets(ray, fragment)) return;
+            hit->triangle = fragment.polygon;
+            picture.at(x, y) = *hit;  // over whatever was there
+        });
+    });
+    return picture;
+}
+// [painter]
+
+/// The nearest triangle of each pixel.
+inline DepthBuffer z_buffer(std::span<const Triangle> triangles, const Camera& camera, int width,
+                            int height) {
+    DepthBuffer picture(width, height);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const auto& [a, b, c] = triangles[i];
+        const std::array<Double3, 3> corners{a, b, c};
+        for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
+            auto hit = FilteredExact::intersect(ray, triangles[i]);
+            if (!hit) return;
+            hit->triangle = i;
+            if (nearer(*hit, picture.at(x, y))) picture.at(x, y) = *hit;
+        });
+    }
+    return picture;
+}
+
+/// A picture of what each pixel shows, lit without shadows.
+inline Image picture_of(const Scene& scene, const DepthBuffer& shown) {
+    const CameraFrame frame(scene.camera);
+    Image image(shown.width, shown.height);
+    for (int y = 0; y < shown.height; ++y)
+        for (int x = 0; x < shown.width; ++x) {
+            const Hit& hit = shown.at(x, y);
+            const Ray ray =
+                camera_ray(scene.camera, frame, x + 0.5, y + 0.5, shown.width, shown.height);
+            image.at(x, y) = hit.t < infinity ? shade(scene, ray, hit, [](const Ray&) { return true; })
+                                              : scene.background;
+        }
+    return image;
+}
+
+/// Pixels in which two pictures show different triangles. Where both lie at one depth, but for
+/// rounding to float, either is right.
+struct Differences {
+    std::uint64_t pixels = 0, covered = 0, same_depth = 0, wrong = 0;
+};
+inline Differences differences(const DepthBuffer& one, const DepthBuffer& other) {
+    constexpr double tolerance = 8.0 * float_roundoff;
+    Differences result;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) {
+        const Hit &a = one.pixels[i], &b = other.pixels[i];
+        ++result.pixels;
+        result.covered += a.t < infinity;
+        if (a.triangle == b.triangle && (a.t < infinity) == (b.t < infinity)) continue;
+        const bool tied = std::abs(double{a.t} - double{b.t}) <= tolerance * double{a.t};
+        ++(tied ? result.same_depth : result.wrong);
+    }
+    return result;
+}
+
+}  // namespace space
