@@ -98,7 +98,7 @@ class BspBuilder {
         Set all;
         for (std::uint32_t i = 0; i < tree_.polygons.size(); ++i)
             if (spans_plane(tree_.polygons[i])) all.push_back(whole_polygon<D>(tree_.polygons[i], i));
-        count_ = all.size();
+        count_fragments(all.size());
         std::vector<Task> tasks;  // not recursion: a chain is as deep as there are polygons
         tasks.push_back({std::move(all), BspTree<D>::none, false});
         while (!tasks.empty()) {
@@ -158,9 +158,7 @@ class BspBuilder {
     }
 
     void cut(const Splitter<D>& cutter, Fragment<D>& fragment, std::span<const int> sides, std::uint32_t plane, Parts& parts) {
-        if (++count_ > config_.max_fragments)
-            throw usage_error(fmt::format("BSP tree: more than {} fragments; allow more, or choose splitters that cut less",
-                                          config_.max_fragments));
+        count_fragments(1);
         if (config_.straddlers == Straddlers::share) {
             parts.front.push_back(fragment);
             parts.back.push_back(std::move(fragment));
@@ -172,6 +170,13 @@ class BspBuilder {
         const bool exact = config_.grade == Grade::exact;
         if (exact || Splitter<D>::has_extent(front)) parts.front.push_back(std::move(front));
         if (exact || Splitter<D>::has_extent(back)) parts.back.push_back(std::move(back));
+    }
+
+    void count_fragments(std::size_t more) {
+        count_ += more;
+        if (count_ > config_.max_fragments)
+            throw usage_error(fmt::format("BSP tree: more than {} fragments; allow more, or choose splitters that cut less",
+                                          config_.max_fragments));
     }
 
     static bool spans_plane(const Corners<D>& polygon) {
@@ -204,10 +209,10 @@ class BspBuilder {
             best_price = price;
             best_share = static_cast<double>(std::min(tally.front, tally.back) + tally.cuts) / static_cast<double>(size);
         };
-        const std::uint32_t tries = std::min(config_.candidates, size);
+        const std::uint32_t tries = std::min(std::max(config_.candidates, 1u), size);
         for (std::uint32_t i = 0; i < tries; ++i)  // all of a small set, else one at random
-            consider(polygon_plane(set[size <= config_.candidates ? i : random_.below(size)]));
-        if (config_.splitter == SplitterChoice::free && best_share < config_.lopsided && size > config_.candidates)
+            consider(polygon_plane(set[size == tries ? i : random_.below(size)]));
+        if (config_.splitter == SplitterChoice::free && best_share < config_.lopsided && size > tries)
             for (int axis = 0; axis < D; ++axis) {
                 const Candidate across{axis_plane<D>(axis, middle(set, axis)), std::nullopt};
                 const Tally tally = tally_of(across, set);
@@ -219,16 +224,20 @@ class BspBuilder {
 
     /// Counts until the candidate is dearer than `limit`, which it can't undo: cuts never become fewer.
     Tally tally_of(const Candidate& candidate, const Set& set, double limit = infinity) {
-        const std::vector<SplitPlane<D>> one{candidate.plane};
-        // Counting decides nothing that must be exact: doubles do.
-        const Splitter<D> counter(tree_.polygons, one, config_.grade == Grade::exact ? Grade::ordered_double : config_.grade,
-                                  config_.grade == Grade::exact ? 0.0 : thickness_);
+        const auto number = static_cast<std::uint32_t>(tree_.planes.size());
+        tree_.planes.push_back(candidate.plane);  // while it is counted
+        // Counting a polygon's plane decides nothing that must be exact: doubles do. But a free plane has to part the set: if
+        // only rounding said so, the builder would take the same plane again and again.
+        const bool in_double = config_.grade == Grade::exact && candidate.polygon;
+        const Splitter<D> counter(tree_.polygons, tree_.planes, in_double ? Grade::ordered_double : config_.grade,
+                                  in_double ? 0.0 : thickness_);
         Tally tally;
         for (const Fragment<D>& fragment : set) {
-            const Side place = place_of(counter, fragment, candidate, 0, sides_);
+            const Side place = place_of(counter, fragment, candidate, number, sides_);
             ++(place == Side::front ? tally.front : place == Side::back ? tally.back : place == Side::on ? tally.on : tally.cuts);
             if (place == Side::across && price_of({.cuts = tally.cuts}) >= limit) break;
         }
+        tree_.planes.pop_back();
         return tally;
     }
 

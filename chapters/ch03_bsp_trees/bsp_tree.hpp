@@ -11,7 +11,7 @@
 
 namespace space {
 
-/// What lies at a place that no polygon passes through.
+/// Where a point lies, seen from a closed mesh.
 enum class Cell { outside, inside, boundary };
 
 /// The tree over segments (D = 2) or polygons (D = 3).
@@ -61,19 +61,23 @@ struct BspTree {
     // [in_order]
 
     // [locate]
-    /// Inside or outside of the closed mesh that the tree was built from, front sides outwards; boundary for a point on a
-    /// plane of the path that has fragments through it. A cell in front of the last polygon's plane touches
-    /// that polygon's front.
+    /// Inside or outside of the closed mesh that the tree was built from by cutting, front sides outwards. A cell in front
+    /// of the last polygon's plane touches that polygon's front. A point on a plane is asked of both sides (Thibault &
+    /// Naylor 1987): it is on the boundary where the cells around it differ.
     Cell locate(const Point<D>& p) const {
-        Cell last = Cell::outside;
-        for (std::int32_t index = nodes.empty() ? none : 0; index != none;) {
-            const Node& node = nodes[static_cast<std::size_t>(index)];
+        if (nodes.empty()) return Cell::outside;
+        bool inside = false, outside = false;
+        std::vector<std::int32_t> to_visit{0};
+        while (!to_visit.empty()) {
+            const Node& node = nodes[static_cast<std::size_t>(to_visit.back())];
+            to_visit.pop_back();
             const int side = side_of(p, node);
-            if (side == 0) return Cell::boundary;
-            last = side > 0 ? Cell::outside : Cell::inside;
-            index = side > 0 ? node.front : node.back;
+            if (side >= 0 && node.front != none) to_visit.push_back(node.front);
+            if (side <= 0 && node.back != none) to_visit.push_back(node.back);
+            outside = outside || (side >= 0 && node.front == none);
+            inside = inside || (side <= 0 && node.back == none);
         }
-        return last;
+        return inside && outside ? Cell::boundary : inside ? Cell::inside : Cell::outside;
     }
     // [locate]
 
