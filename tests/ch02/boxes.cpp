@@ -175,12 +175,14 @@ Misses conservative_misses(int each) {
 }  // namespace
 
 TEST_CASE(
-    "on the 7000 lattice rays the safe tests decide exactly, and the plain ones lose rays in the plane of a face") {
+    "on the 7000 lattice rays the safe tests decide exactly, and the plain ones decide wrongly only in the plane of "
+    "a face") {
     struct Count {
-        int misses = 0, hits = 0;
-        void add(bool got, bool expected) {
+        int misses = 0, hits = 0, elsewhere = 0;
+        void add(bool got, bool expected, bool in_face = false) {
             misses += expected && !got;
             hits += got && !expected;
+            elsewhere += got != expected && !in_face;
         }
     };
     Count branching, min_max, reciprocal, safe, conservative, expansions, rationals;
@@ -190,9 +192,13 @@ TEST_CASE(
         const bool expected = lattice_hit(ray);
         ++rays;
         hits += expected;
+        bool in_face = false;
+        for (int axis = 0; axis < 3; ++axis)
+            in_face = in_face ||
+                      (ray.direction[axis] == 0.0f && (ray.origin[axis] == 0.0f || ray.origin[axis] == 2.0f));
         branching.add(SlabBranching::intersect(ray, box).has_value(), expected);
-        min_max.add(SlabMinMax::intersect(ray, box).has_value(), expected);
-        reciprocal.add(SlabReciprocal::intersect(ray, box).has_value(), expected);
+        min_max.add(SlabMinMax::intersect(ray, box).has_value(), expected, in_face);
+        reciprocal.add(SlabReciprocal::intersect(ray, box).has_value(), expected, in_face);
         safe.add(SlabSafe::intersect(ray, box).has_value(), expected);
         conservative.add(SlabConservative::intersect(ray, box).has_value(), expected);
         expansions.add(exactly_hits(ray, box), expected);
@@ -207,6 +213,7 @@ TEST_CASE(
     for (const Count& wrong : {min_max, reciprocal}) {
         CHECK(wrong.misses == 992);
         CHECK(wrong.hits == 344);
+        CHECK(wrong.elsewhere == 0);
     }
 }
 
@@ -230,7 +237,8 @@ TEST_CASE("the conservative test misses no box, and no part of the ray in it, ov
     CHECK(count.false_misses == 0);
     CHECK(count.too_late == 0);
     CHECK(count.too_early == 0);
-    CHECK(count.false_hits > 0);  // its price: nearly all rays aim at a corner or an edge here, and half of them pass it
+    // Its price: nearly all rays aim at a corner or an edge here, and half of them pass it.
+    CHECK(count.false_hits > 0);
     CHECK(count.false_hits < count.exact_hits);
 }
 
@@ -279,15 +287,25 @@ TEST_CASE("intervals are closed: a box that begins at tmax or ends at tmin is hi
         CHECK(Test::intersect(with(3, 3), box));
         CHECK_FALSE(Test::intersect(with(0, 1.99f), box));
         CHECK_FALSE(Test::intersect(with(4.01f, 9), box));
-        CHECK(Test::intersect({{2, 0, 0}, {0, 1, 0}}, Aabb{{2, -1, -1}, {2, 1, 1}}));  // within a flat box
     };
     check(SlabBranching{});
+    check(SlabMinMax{});
+    check(SlabReciprocal{});
     check(SlabSafe{});
     check(SlabConservative{});
 }
 
-TEST_CASE("a turned box that is not turned, or by right angles, is the axis-aligned box") {
+TEST_CASE("a ray within a flat box hits it by the safe tests") {
+    const Aabb flat{{2, -1, -1}, {2, 1, 1}};
+    const Ray within{{2, 0, 0}, {0, 1, 0}};
+    CHECK(SlabBranching::intersect(within, flat));
+    CHECK(SlabSafe::intersect(within, flat));
+    CHECK(SlabConservative::intersect(within, flat));
+}
+
+TEST_CASE("a turned box that is not turned, or by right angles, is the axis-aligned box, interval by interval") {
     Pcg32 random(304);
+    int hits = 0;
     for (int i = 0; i < 2'000; ++i) {
         const RayAndBox pair = make_box_pair(random);
         // Whole numbers: centre and half size are exact.
@@ -299,17 +317,22 @@ TEST_CASE("a turned box that is not turned, or by right angles, is the axis-alig
         // Columns: x -> y -> -z -> x.
         const glm::mat3 turn(Vector3(0, 1, 0), Vector3(0, 0, -1), Vector3(-1, 0, 0));
         const Vector3 turned(half.z, half.x, half.y);
-        REQUIRE(intersect(ray, OrientedBox{center, glm::mat3(1.0f), half}).has_value() ==
-                SlabSafe::intersect(ray, Aabb{center - half, center + half}).has_value());
-        REQUIRE(intersect(ray, OrientedBox{center, turn, half}).has_value() ==
-                SlabSafe::intersect(ray, Aabb{center - turned, center + turned}).has_value());
+        const auto same = [&](const OrientedBox& box, const Aabb& aligned) {
+            const auto one = intersect(ray, box), other = SlabSafe::intersect(ray, aligned);
+            hits += one.has_value();
+            return one.has_value() == other.has_value() &&
+                   (!one || (one->enter == other->enter && one->leave == other->leave));
+        };
+        REQUIRE(same({center, glm::mat3(1.0f), half}, {center - half, center + half}));
+        REQUIRE(same({center, turn, half}, {center - turned, center + turned}));
         REQUIRE(bounds(OrientedBox{center, turn, half}) == Aabb{center - turned, center + turned});
     }
+    CHECK(hits > 100);
 }
 
 TEST_CASE(
-    "a turned box is hit by rays at points clearly inside, missed by rays past points clearly outside, and the box "
-    "around it holds it") {
+    "a turned box is hit by rays at points clearly inside, missed by rays in a plane clearly beside a face, and the "
+    "box around it holds it but for roundings") {
     Pcg32 random(305);
     constexpr float clear = 1e-4f;  // hundreds of roundings of numbers up to 10
     for (int i = 0; i < 10'000; ++i) {

@@ -132,6 +132,7 @@ TEST_CASE("the exact sphere's quadratic is that of rational numbers, and so is i
         hits += expected;
     }
     CHECK(hits > rounds / 100);
+    CHECK(rounds / 10 - hits > rounds / 100);
 }
 
 }  // namespace space

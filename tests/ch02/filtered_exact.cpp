@@ -195,8 +195,8 @@ Outcome all_inputs(int pairs, int first) {
 }  // namespace
 
 TEST_CASE(
-    "filtered exact decides as exact arithmetic does, with the nearest float t, on every input and at every end of the "
-    "interval") {
+    "filtered exact decides as exact arithmetic does, with the nearest float t, on every class of input and at every "
+    "end of the interval") {
     const Outcome sum = all_inputs(pairs_each, pairs_each);
     CHECK(sum.hits > sum.decisions / 10);
     CHECK(sum.boundary > 0);
@@ -211,8 +211,7 @@ TEST_CASE("filtered exact decides as exact arithmetic does: the full sizes", "[.
     CHECK(all_inputs(100'000, 1'000'000).right());
 }
 
-TEST_CASE("each stage of filtered exact gives the same hit for the same ray") {
-    // The same scene and ray, put where another stage has to decide.
+TEST_CASE("each stage decides alone where the one before cannot tell, and finds the point that the ray is aimed at") {
     const Triangle triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     for (const auto& [target, stage] : {std::pair{Point3(1, 1, 0), Stage::filter},
                                         {Point3(2, 0, 0), Stage::integers},
@@ -221,13 +220,19 @@ TEST_CASE("each stage of filtered exact gives the same hit for the same ray") {
         const auto hit = FilteredExact::intersect({target + Vector3(1, 2, 3), {-1, -2, -3}}, triangle, stages);
         REQUIRE(hit);
         CHECK(hit->t == 1.0f);
+        CHECK(hit->u == target.x / 4.0f);
+        CHECK(hit->v == target.y / 4.0f);
         CHECK(stages[stage] == 1);
+        CHECK(stages[Stage::filter] + stages[Stage::integers] + stages[Stage::expansions] == 1);
     }
     Stages stages;  // 0x1p-100 beside 4: no integer holds both
     const auto hit = FilteredExact::intersect({{2, 0x1p-100f, 3}, {0, -0x1p-100f, -3}}, triangle, stages);
     REQUIRE(hit);
     CHECK(hit->t == 1.0f);
+    CHECK(hit->u == 0.5f);
+    CHECK(hit->v == 0.0f);
     CHECK(stages[Stage::expansions] == 1);
+    CHECK(stages[Stage::filter] + stages[Stage::integers] == 0);
     CHECK_FALSE(FilteredExact::intersect({{2, -0x1p-149f, 3}, {0, 0, -3}}, triangle));
     CHECK(FilteredExact::intersect({{2, 0x1p-149f, 3}, {0, 0, -3}}, triangle));
 }

@@ -51,8 +51,8 @@ int differing(int fours) {
 }  // namespace
 
 TEST_CASE(
-    "over all floats from 1 to 4 each round of Newton's method has its worst error, and the third is the last that "
-    "helps") {
+    "over all floats from 1 to 4 each round of Newton's method has its worst error, and by division the third is the "
+    "last that helps") {
     // In units in the last place.
     const std::map<std::string, double> worst{
         {"Newton 0", 408'333},  {"Newton 1", 6'795},       {"Newton 2", 2.694},      {"Newton 3", 0.75},

@@ -55,8 +55,8 @@ std::vector<Triangle> fan() {
 
 TEST_CASE("at a shared edge Möller-Trumbore in float hits neither triangle, the watertight and the exact tests one") {
     CHECK(hits<MollerTrumboreFloat>(at_edge, quad) == 0);
-    CHECK(hits<Watertight>(at_edge, quad) >= 1);
-    CHECK(hits<Plucker>(at_edge, quad) >= 1);
+    CHECK(hits<Watertight>(at_edge, quad) == 1);
+    CHECK(hits<Plucker>(at_edge, quad) == 1);
     CHECK(hits<FilteredExact>(at_edge, quad) == 1);
     CHECK(FilteredExact::intersect(at_edge, quad[0]));
 }
@@ -97,17 +97,19 @@ TEST_CASE("an absolute epsilon misses small triangles, the sign of the determina
 }
 
 TEST_CASE(
-    "no ray leaks through a closed mesh with the watertight or the exact test, nor through its edges with Plücker's; "
-    "some do with the others") {
+    "no ray leaks through a closed mesh with the watertight or the exact test; with Plücker's at most a fifth as "
+    "many do as with any plain one in float") {
     for (const int shift : {0, 3}) {
         const Leaks leaks = closed_mesh_leaks(2, shift, leak_rays, 601, 2);
         INFO(leaks.mesh);
         CHECK(leaks.rays == leak_rays);
         CHECK(leaks.leaks[index_of<Watertight>()] == 0);
         CHECK(leaks.leaks[index_of<FilteredExact>()] == 0);
-        CHECK(leaks.leaks[index_of<MollerTrumboreFloat>()] > 0);
-        CHECK(leaks.leaks[index_of<LichterFirst>()] > 0);
-        CHECK(leaks.leaks[index_of<Plucker>()] < leaks.leaks[index_of<MollerTrumboreFloat>()]);
+        for (const std::size_t plain : {index_of<MollerTrumboreFloat>(), index_of<LichterFirst>(),
+                                        index_of<LichterImproved>(), index_of<UnitTriangle>()}) {
+            CHECK(leaks.leaks[plain] > 0);
+            CHECK(5 * leaks.leaks[index_of<Plucker>()] <= leaks.leaks[plain]);
+        }
     }
 }
 
@@ -140,7 +142,8 @@ TEST_CASE("the order of a triangle's vertices does not matter to Plücker's, the
     for (int i = 0; i < pairs_each; ++i) {
         const auto [ray, triangle] = make_pair({"", i % 2 ? Aim::edge : Aim::vertex}, random);
         const auto& [a, b, c] = triangle;
-        for (const Triangle& turned : {Triangle{b, c, a}, Triangle{a, c, b}}) {
+        for (const Triangle& turned :
+             {Triangle{b, c, a}, Triangle{c, a, b}, Triangle{a, c, b}, Triangle{c, b, a}, Triangle{b, a, c}}) {
             // Only the decision about the line: t is rounded in another order.
             const Ray line{ray.origin, ray.direction, -infinity, infinity};
             different +=
@@ -188,13 +191,14 @@ TEST_CASE("all tests agree on rays clearly inside or outside, and t, u and v are
 }
 
 TEST_CASE(
-    "an offset origin neither hits its triangle again nor leaks, near and far from the world's origin; without it half "
-    "of them do") {
+    "an offset origin neither hits its triangle again nor leaks, near and far from the world's origin; without it "
+    "three in four hit it again") {
     const OriginWay &plain = origin_ways().front(), &offset = origin_ways().back();
     for (const double place : {0.0, 1e3, 1e5}) {
         INFO("room at " << place);
         const Bounces none = bounces(plain, index_of<FilteredExact>(), place, bounce_count / 10, 605, 2);
-        CHECK(none.self_hits + none.leaks + none.touches > bounce_count / 10 / 10);
+        CHECK(4 * none.self_hits > 3 * none.bounces);
+        CHECK(none.bounces == bounce_count / 10);
         const Bounces moved = bounces(offset, index_of<FilteredExact>(), place, bounce_count, 605, 2);
         CHECK(moved.bounces == bounce_count);
         CHECK(moved.self_hits == 0);
