@@ -72,11 +72,15 @@ fi
 if [[ ${2:-} == check && -n $stub ]]; then
     cp "$1/$stub" "$copy/$stub"
     if git -C "$1" show "HEAD:$stub" >"$tree/stub" 2>/dev/null; then cp "$tree/stub" "$copy/$stub"; fi
+    cp "$copy/$stub" "$tree/original"
     ends 1 'is not solved yet' exercise check 1.1 --no-install
     ends 0 '^1\.1 .*unsolved' exercise
     echo 'this is no C++' >>"$copy/$stub"
     ends 1 'does not compile yet' exercise check 1.1
     ends 0 '^1\.1 .*not checked yet' exercise
+    { cat "$tree/original" && printf '#include <cstdlib>\n[[maybe_unused]] static const int crash = (std::abort(), 0);\n'; } >"$copy/$stub"
+    ends 1 'crashes \(exit code' exercise check 1.1
+    ! grep -q 'exercises\.sh' "$tree/said.txt" || wrong "the shell speaks too: $(<"$tree/said.txt")"
     { head -n 3 "$1/$stub" && cat "$copy"/chapters/ch01_*/solutions/ex01_*.hpp; } >"$copy/$stub"
     ends 0 'is solved' exercise check 1.1
     ends 0 '^1\.1 .*  solved' exercise
