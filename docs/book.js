@@ -86,7 +86,7 @@ function stepThrough(list) {
       if (shown) group.removeAttribute("display");
       else group.setAttribute("display", "none");
     }
-    items.forEach((item, i) => (item.hidden = i !== now));
+    items.forEach((item, i) => item.classList.toggle("now", i === now));
     count.textContent = `${now} of ${last}`;
     for (const [button, , end] of buttons) button.disabled = now === end;
   };
@@ -99,8 +99,8 @@ function stepThrough(list) {
     element.addEventListener("click", () => show(step()));
     return [element, step, end];
   };
-  const buttons = [button("⏮", "First step", () => 0, 0), button("◀ Back", "Step back", () => now - 1, 0),
-                   button("Next ▶", "Next step", () => now + 1, last), button("⏭", "Last step", () => last, last)];
+  const buttons = [button("|◀", "First step", () => 0, 0), button("◀ Back", "Step back", () => now - 1, 0),
+                   button("Next ▶", "Next step", () => now + 1, last), button("▶|", "Last step", () => last, last)];
   bar.append(buttons[0][0], buttons[1][0], count, buttons[2][0], buttons[3][0]);
   list.before(bar);
   list.setAttribute("aria-live", "polite");

@@ -79,8 +79,14 @@ std::string inline_drawings(const std::string& page, const std::filesystem::path
 }
 
 std::string dedent_fragments(const std::string& page) {
-    constexpr std::string_view line_mark = "<div class=\"line\">";
-    return replace_between(page, "<div class=\"fragment\">", "</div><!-- fragment -->", [&](std::string_view fragment) {
+    constexpr std::string_view line_mark = "<div class=\"line\">", comment = "<span class=\"comment\">";
+    return replace_between(page, "<div class=\"fragment\">", "</div><!-- fragment -->", [&](std::string_view quoted) {
+        // The indentation of a comment stands within its mark: before it, it is like that of the other lines.
+        const std::string even = replace_between(quoted, fmt::format("{}{}", line_mark, comment), "/", [&](std::string_view start) {
+            const std::string_view spaces = start.substr(line_mark.size() + comment.size(), start.size() - line_mark.size() - comment.size() - 1);
+            return spaces.find_first_not_of(' ') == spaces.npos ? fmt::format("{}{}{}/", line_mark, spaces, comment) : std::string(start);
+        });
+        std::string_view fragment = even;
         std::size_t indent = std::string_view::npos;
         for (std::size_t at = 0; (at = fragment.find(line_mark, at)) != fragment.npos;) {
             at += line_mark.size();

@@ -117,6 +117,24 @@ std::optional<std::string> page_id(const Places& places, const Chapter& chapter)
     return page_id(places.root / "chapters" / chapter.folder / "chapter.dox");
 }
 
+/// The title after the id.
+std::string page_title(const fs::path& file) {
+    static const std::regex page(R"([\\@]page\s+\S+\s+(.+))");
+    const std::string text = read_file(file);
+    std::smatch match;
+    if (!std::regex_search(text, match, page)) throw input_error(fmt::format("{}: its \\page has no title", file.string()));
+    return match[1].str();
+}
+
+/// The .dox files of a chapter beside its chapter.dox, by name.
+std::vector<fs::path> further_pages(const Places& places, const Chapter& chapter) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(places.root / "chapters" / chapter.folder))
+        if (entry.path().extension() == ".dox" && entry.path().filename() != "chapter.dox") files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+}
+
 /// Raw HTML within a page. The block ends before an \endhtmlonly only.
 std::string raw(const std::string& markup) {
     return "\\htmlonly\n" + markup + "\\endhtmlonly\n\n";
@@ -290,8 +308,11 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
     };
     std::string menu;
     for (const Chapter& chapter : chapters)
-        if (const auto page = page_id(places, chapter))
+        if (const auto page = page_id(places, chapter)) {
             menu += tab(*page, fmt::format("{}. {}", chapter.number, chapter.title));
+            for (const fs::path& more : further_pages(places, chapter))
+                menu += tab(*page_id(more), fmt::format("{}. {}", chapter.number, page_title(more)));
+        }
     menu += tab("exercises", "Exercises") + tab("figures", "Figures") + tab("ledger", "Claims and verdicts");
     for (const auto& [file, title] : {std::pair{"glossary.dox", "Glossary"}, {"bibliography.dox", "Bibliography"}})
         if (const auto page = page_id(places.root / "docs" / file)) menu += tab(*page, title);

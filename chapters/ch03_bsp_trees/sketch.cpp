@@ -41,7 +41,7 @@ void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const
 
 Point2 heinonen_name_place(const PlaneView& view, const Piece& piece) {
     const char letter = piece.name.front();
-    const double away = letter == 'B' || letter == 'G' || letter == 'C' ? -21.0 : 21.0;
+    const double away = letter == 'B' || letter == 'G' ? -21.0 : letter == 'C' ? 27.0 : 21.0;
     return moved(beside(view, piece.from, piece.to, letter == 'G' ? 0.3 : 0.5, away), 0, 7);
 }
 

@@ -5,6 +5,7 @@ errors in the console, requests to a network, text wider than a phone. Prints a 
 
 Run: browse.py SITE"""
 
+import html
 import html.parser
 import json
 import pathlib
@@ -191,6 +192,76 @@ for system in ("light", "dark"):
     if run(colours) != before:
         fault("dark mode", "switching twice does not come back")
 
+# Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
+# out; without scripts, the last step's drawing stands and all sentences.
+state = """
+    const list = document.querySelector("ol.steps"), drawing = list.previousElementSibling.previousElementSibling;
+    const seen = (element) => getComputedStyle(element).visibility === "visible";
+    return {tells: [...list.children].filter(seen).map((item) => item.textContent),
+            groups: [...drawing.querySelectorAll("[data-first]")].map((group) => group.getAttribute("display") !== "none"),
+            buttons: [...document.querySelectorAll(".step-bar button")].map((button) => !button.disabled),
+            count: document.querySelector(".step-bar output").textContent,
+            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top};"""
+static = """
+    const list = document.querySelector("ol.steps"), drawing = list.previousElementSibling;
+    return {tells: list.children.length, bar: !!document.querySelector(".step-bar"),
+            shown: [...drawing.querySelectorAll("[data-first]")].map((group) => getComputedStyle(group).display !== "none"),
+            lasts: [...drawing.querySelectorAll("[data-first]")].map((group) => group.dataset.last === undefined)};"""
+steps_walked = 0
+for name in (name for name in book if '<ol class="steps">' in (site / name).read_text()):
+    markup = (site / name).read_text()
+    groups = [(int(first), int(last) if last else None)
+              for first, last in re.findall(r'<g data-first="(\d+)"(?: data-last="(\d+)")?', markup)]
+    tells = re.findall(r"<li>(.*?)</li>", markup[markup.index('<ol class="steps">'):].split("</ol>")[0])
+    last = len(tells) - 1
+    if last < 1 or any(first > last or (end is not None and end < first) for first, end in groups):
+        fault(name, f"a drawing's steps are none: {groups}")
+
+    def look(step, how):
+        now = run(state)
+        expected = [first <= step and (end is None or step <= end) for first, end in groups]
+        if now["groups"] != expected:
+            fault(name, f"step {step} by {how} shows other groups than its own")
+        if now["tells"] != [html.unescape(tells[step])]:
+            fault(name, f"step {step} by {how} tells {now['tells']}")
+        if now["buttons"] != [step > 0, step > 0, step < last, step < last] or now["count"] != f"{step} of {last}":
+            fault(name, f"step {step} by {how}: its buttons are {now['buttons']}, {now['count']}")
+        return now["height"]
+
+    for width, mode in ((1280, "light"), (390, "dark")):
+        window(width, mode)
+        open_page(name)
+        first, back, forth, end = chromium.find_elements(By.CSS_SELECTOR, ".step-bar button")
+        places = {look(0, "loading")}
+        for step in range(1, last + 1):
+            forth.click()
+            places.add(look(step, "Next"))
+            steps_walked += 1
+            for wide in run(sticking_out):
+                fault(name, f"at {width} px, step {step}, sticks out: {wide}")
+        for step in range(last - 1, -1, -1):
+            back.click()
+            look(step, "Back")
+        end.click()
+        look(last, "Last")
+        first.click()
+        look(0, "First")
+        body = chromium.find_element(By.TAG_NAME, "body")
+        for key, step in ((Keys.ARROW_RIGHT, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
+            body.send_keys(key)
+            look(step, "arrow key")
+        if max(places) - min(places) > 1:
+            fault(name, f"at {width} px the page below jumps from step to step: {sorted(places)}")
+        look_at_logs(name)
+    chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=True))
+    chromium.get((site / name).as_uri())
+    still = run(static)
+    chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
+    if still["bar"] or still["tells"] != last + 1 or still["shown"] != still["lasts"]:
+        fault(name, f"without scripts its drawing is not the last step's: {still}")
+if "ch03_step_by_step.html" in book and not steps_walked:
+    fault("ch03_step_by_step.html", "has no steps")
+
 
 # The search, by keyboard: something is found, and opening it leads to a page that has the word.
 def results():
@@ -221,5 +292,5 @@ chromium.quit()
 
 for line in faults:
     print(line)
-print(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings: {len(faults)} faults")
+print(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings, {steps_walked} steps: {len(faults)} faults")
 sys.exit(1 if faults else 0)

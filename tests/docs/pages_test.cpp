@@ -59,6 +59,9 @@ TEST_CASE("quoted code loses the indentation that its lines share, and only that
           open + line + "if (x)</div>\n" + line + "</div>\n" + line + "    y();</div>\n" + close);
     CHECK(dedent_fragments(open + line + "a</div>" + line + "  b</div>" + close) ==
           open + line + "a</div>" + line + "  b</div>" + close);
+    const std::string comment = "<span class=\"comment\">", end = "</span></div>\n";
+    CHECK(dedent_fragments(open + line + comment + "    // why" + end + line + "    x();</div>\n" + close) ==
+          open + line + comment + "// why" + end + line + "x();</div>\n" + close);
     CHECK(dedent_fragments("<p>  none</p>") == "<p>  none</p>");
 }
 
