@@ -81,8 +81,11 @@ std::string inline_drawings(const std::string& page, const std::filesystem::path
 std::string dedent_fragments(const std::string& page) {
     constexpr std::string_view line_mark = "<div class=\"line\">", comment = "<span class=\"comment\">";
     return replace_between(page, "<div class=\"fragment\">", "</div><!-- fragment -->", [&](std::string_view quoted) {
-        // The indentation of a comment stands within its mark: before it, it is like that of the other lines.
-        const std::string even = replace_between(quoted, fmt::format("{}{}", line_mark, comment), "/", [&](std::string_view start) {
+        // Doxygen marks empty comments before a line, and a comment's indentation as part of it: neither is of use.
+        const std::string bare = replace_between(quoted, comment, "</span>", [&](std::string_view span) {
+            return span.size() == comment.size() + 7 ? std::string() : std::string(span);
+        });
+        const std::string even = replace_between(bare, fmt::format("{}{}", line_mark, comment), "/", [&](std::string_view start) {
             const std::string_view spaces = start.substr(line_mark.size() + comment.size(), start.size() - line_mark.size() - comment.size() - 1);
             return spaces.find_first_not_of(' ') == spaces.npos ? fmt::format("{}{}{}/", line_mark, spaces, comment) : std::string(start);
         });

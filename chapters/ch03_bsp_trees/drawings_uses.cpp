@@ -59,7 +59,7 @@ void draw_painters_order(const Options& options) {
         svg.polygon(sector, {.stroke = {}, .fill = colors[story.pieces[i].polygon]});
     }
     svg.circle(centre, 6, {.stroke = {}, .fill = Ink::ink}, "eye");
-    svg.text(moved(centre, 14, 8), "eye", {.anchor = Anchor::start, .size = 18, .halo = true});
+    svg.text(moved(centre, -12, 6), "eye", {.anchor = Anchor::end, .size = 18, .halo = true});
 
     constexpr double left = 470, width = 160, row = 44;
     const auto strip = [&](double top, std::size_t painted, std::string_view id) {

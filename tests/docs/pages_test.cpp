@@ -60,7 +60,7 @@ TEST_CASE("quoted code loses the indentation that its lines share, and only that
     CHECK(dedent_fragments(open + line + "a</div>" + line + "  b</div>" + close) ==
           open + line + "a</div>" + line + "  b</div>" + close);
     const std::string comment = "<span class=\"comment\">", end = "</span></div>\n";
-    CHECK(dedent_fragments(open + line + comment + "    // why" + end + line + "    x();</div>\n" + close) ==
+    CHECK(dedent_fragments(open + line + comment + "    // why" + end + line + comment + "</span>    x();</div>\n" + close) ==
           open + line + comment + "// why" + end + line + "x();</div>\n" + close);
     CHECK(dedent_fragments("<p>  none</p>") == "<p>  none</p>");
 }
