@@ -41,7 +41,7 @@ struct BuiltStructure {
 /// A structure with one of the triangle tests.
 struct StructureVariant {
     std::string_view triangle_test, about_test;
-    BuiltStructure (*build)(std::span<const Triangle> triangles, unsigned threads);
+    std::function<BuiltStructure(std::span<const Triangle> triangles, unsigned threads)> build;
 };
 
 /// An entry of the lab: a structure of the book, in the variants that can be asked for.
@@ -80,10 +80,9 @@ Counts trace(const A& accelerator, const Batch& batch) {
 }
 // [batch]
 
-/// Builds an A with its default Config; `threads` matters to a Config that has a field of that name.
+/// Builds an A; `threads` matters to a Config that has a field of that name.
 template <Accelerator A>
-BuiltStructure build_structure(std::span<const Triangle> triangles, unsigned threads) {
-    typename A::Config config;
+BuiltStructure build_configured(std::span<const Triangle> triangles, unsigned threads, typename A::Config config) {
     unsigned build_threads = 1;
     if constexpr (requires { config.threads = threads; }) config.threads = build_threads = threads;
     const auto structure = std::make_shared<const A>(A::build(triangles, config));
@@ -91,6 +90,12 @@ BuiltStructure build_structure(std::span<const Triangle> triangles, unsigned thr
             .trace = [structure](const Batch& batch) { trace<NoCounts>(*structure, batch); },
             .count = [structure](const Batch& batch) { return trace<TraversalCounts>(*structure, batch); },
             .build_threads = build_threads};
+}
+
+/// The same with the default Config.
+template <Accelerator A>
+BuiltStructure build_structure(std::span<const Triangle> triangles, unsigned threads) {
+    return build_configured<A>(triangles, threads, {});
 }
 
 }  // namespace space
