@@ -2,15 +2,11 @@
 // fragment? In the exact grade none slips through; in the others they do, through cracks and T-junctions.
 #include <fmt/format.h>
 
-#include <map>
-
-#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/tiling.hpp"
 #include "common/report.hpp"
 #include "tests/catch.hpp"
-#include "tests/ch03/cgal_fragments.hpp"
+#include "tests/ch03/gallery.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
-#include "tests/oracle/exact.hpp"
 
 namespace space {
 namespace {
@@ -49,123 +45,6 @@ std::vector<Mesh> meshes() {
     return {cut_sphere(), {"torus", scenes::torus(40, 20)}, {"two spheres", scenes::tiling_scenes()[7].triangles}, {"boxes", scenes::touching()}};
 }
 
-struct Leaks {
-    std::uint64_t aimed = 0;
-    std::uint64_t hits = 0;   ///< rays that hit a triangle near the point aimed at, exactly
-    std::uint64_t leaks = 0;  ///< of these: no fragment of a triangle near that point is met
-    /// And of these: all triangles near that point face the same way. At a silhouette a cut that rounding moved inwards
-    /// lets rays past without a crack.
-    std::uint64_t through = 0;
-    std::uint64_t unmet = 0;  ///< triangles that are hit, none of whose fragments is met
-    std::uint64_t exact_decisions = 0;
-
-    Leaks& operator+=(const Leaks& other) {
-        aimed += other.aimed;
-        hits += other.hits;
-        leaks += other.leaks;
-        through += other.through;
-        unmet += other.unmet;
-        exact_decisions += other.exact_decisions;
-        return *this;
-    }
-};
-
-class Gallery {
-  public:
-    Gallery(const BspTree<3>& tree, Grade grade, std::size_t closed)
-        : tree_(tree), fragments_(view(tree, grade)), of_(tree.polygons.size()) {
-        std::map<std::array<float, 3>, std::vector<std::uint32_t>> at;  // triangles by vertex
-        const auto key = [](const Point3& p) { return std::array{p.x, p.y, p.z}; };
-        for (std::uint32_t i = 0; i < tree.polygons.size(); ++i)
-            for (const Point3& corner : tree.polygons[i]) {
-                at[key(corner)].push_back(i);
-                if (i < closed) box_.extend(corner);
-            }
-        for (const Corners<3>& polygon : tree.polygons) {
-            std::vector<std::uint32_t> ring;
-            for (const Point3& corner : polygon)
-                for (const std::uint32_t i : at[key(corner)])
-                    if (std::find(ring.begin(), ring.end(), i) == ring.end()) ring.push_back(i);
-            near_.push_back(std::move(ring));
-        }
-        for (std::uint32_t i = 0; i < tree.fragments.size(); ++i) {
-            const Fragment<3>& f = tree.fragments[i];
-            of_[f.polygon].push_back(i);
-            if (f.polygon >= closed) continue;
-            for (std::size_t c = 0; c < f.corners.size(); ++c)
-                (f.corners[c].carrier.is_original() ? old_ : cut_)
-                    .push_back({f.corners[c].at, f.corners[(c + 1) % f.corners.size()].at, f.polygon});
-        }
-    }
-
-    Leaks at_old_edges(int rays, std::uint64_t seed) const { return shoot(old_, rays, seed); }
-    Leaks at_cuts(int rays, std::uint64_t seed) const { return shoot(cut_, rays, seed); }
-
-  private:
-    struct Edge {
-        Double3 from, to;
-        std::uint32_t polygon;
-    };
-
-    Leaks shoot(const std::vector<Edge>& edges, int rays, std::uint64_t seed) const {
-        Leaks leaks;
-        if (edges.empty()) return leaks;
-        const std::uint64_t before = fragments_.exact_decisions();
-        Pcg32 random(seed);
-        const Vector3 extent = box_.extent();
-        const auto origin = [&]() -> Point3 {
-            for (;;) {  // outside of the box by up to its size; some on the grid that whole numbers lie on
-                const auto share = [&] { return random.uniform(-1.0f, 2.0f); };
-                const float x = share(), y = share(), z = share();
-                Point3 p = box_.min + Vector3(x, y, z) * extent;
-                if (random.below(4) == 0) p = glm::floor(p * 4.0f) * 0.25f;
-                if (!box_.contains(p)) return p;
-            }
-        };
-        for (int i = 0; i < rays; ++i) {
-            const Edge& edge = edges[random.below(static_cast<std::uint32_t>(edges.size()))];
-            const double s = random.below(8) == 0 ? 0.0 : random.below(4) == 0 ? 0.5 : random.uniform_double();
-            const Point3 from = origin();
-            aim({from, Vector3(edge.from + s * (edge.to - edge.from) - Double3(from))}, edge.polygon, leaks);
-        }
-        leaks.exact_decisions = fragments_.exact_decisions() - before;
-        return leaks;
-    }
-
-    void aim(const Ray& ray, std::uint32_t polygon, Leaks& leaks) const {
-        ++leaks.aimed;
-        bool hit = false, met = false, towards = false, away = false;
-        for (const std::uint32_t near : near_[polygon]) {
-            const bool meets = std::any_of(of_[near].begin(), of_[near].end(), [&](std::uint32_t f) { return fragments_.meets(ray, f); });
-            const Corners<3>& p = tree_.polygons[near];
-            const bool hits = FilteredExact::intersect(ray, {p[0], p[1], p[2]}).has_value();
-            hit = hit || hits;
-            met = met || meets;
-            leaks.unmet += hits && !meets;
-            const bool front = glm::dot(normal({p[0], p[1], p[2]}), Double3(ray.direction)) < 0.0;
-            (front ? towards : away) = true;
-        }
-        leaks.hits += hit;
-        leaks.leaks += hit && !met;
-        leaks.through += hit && !met && towards != away;
-        if (hit && !met) {  // judged again by the oracle
-            bool confirmed = false;
-            for (const std::uint32_t near : near_[polygon]) {
-                const Corners<3>& p = tree_.polygons[near];
-                confirmed = confirmed || decide(ray, {p[0], p[1], p[2]}) != Place::miss;
-            }
-            REQUIRE(confirmed);
-        }
-    }
-
-    const BspTree<3>& tree_;
-    CgalFragments fragments_;
-    Aabb box_;
-    std::vector<std::vector<std::uint32_t>> near_;  ///< of each triangle: those that share a vertex with it, itself too
-    std::vector<std::vector<std::uint32_t>> of_;    ///< of each triangle: its fragments
-    std::vector<Edge> old_, cut_;
-};
-
 void report(const std::string& mesh, Grade grade, const char* where, const Leaks& leaks) {
     fmt::print("  {}, {}, {}: {} rays aimed, {} hit, {} leak ({} not at a silhouette); {} triangles hit but not met; {} sides decided exactly\n",
                mesh, name(grade), where, with_commas(leaks.aimed), with_commas(leaks.hits), with_commas(leaks.leaks),
@@ -178,7 +57,7 @@ TEST_CASE("no ray leaks through fragments of the exact grade, at old edges or at
     Leaks all;
     for (const Mesh& mesh : meshes()) {
         const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.order = mesh.order});
-        const Gallery gallery(tree, Grade::exact, mesh.closed);
+        const Gallery gallery(view(tree, Grade::exact), mesh.closed);
         const Leaks old = gallery.at_old_edges(exact_rays, 1), cuts = gallery.at_cuts(exact_rays, 2);
         report(mesh.name, Grade::exact, "old edges", old);
         report(mesh.name, Grade::exact, "cuts", cuts);
@@ -198,7 +77,7 @@ TEST_CASE("fragments of the inexact grades leak") {
         Leaks old, cuts;
         for (const Mesh& mesh : meshes()) {
             const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.grade = grade, .order = mesh.order});
-            const Gallery gallery(tree, grade, mesh.closed);
+            const Gallery gallery(view(tree, grade), mesh.closed);
             const Leaks at_old = gallery.at_old_edges(inexact_rays, 3), at_cuts = gallery.at_cuts(inexact_rays, 4);
             report(mesh.name, grade, "old edges", at_old);
             report(mesh.name, grade, "cuts", at_cuts);
@@ -220,7 +99,7 @@ TEST_CASE("edges that both neighbours cut by the same planes: the plain order le
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
         const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.grade = grade, .order = mesh.order});
         const Tiling tiling = measure_tiling(tree, grade);
-        const Leaks old = Gallery(tree, grade, mesh.closed).at_old_edges(4 * inexact_rays, 5);
+        const Leaks old = Gallery(view(tree, grade), mesh.closed).at_old_edges(4 * inexact_rays, 5);
         report(mesh.name, grade, "old edges", old);
         fmt::print("  {} of {} cuts of common edges are cracks\n", tiling.cracks, tiling.cuts);
         CHECK((tiling.cracks > 0) == (grade == Grade::thick_float));
@@ -249,7 +128,7 @@ TEST_CASE("no ray of a million leaks through the bunny's fragments", "[.big]") {
     }
     for (const Grade grade : {Grade::exact, Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
         const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(bunny), {.grade = grade});
-        const Gallery gallery(tree, grade, bunny.size());
+        const Gallery gallery(view(tree, grade), bunny.size());
         const Leaks old = gallery.at_old_edges(1'000'000, 8), cuts = gallery.at_cuts(1'000'000, 9);
         report("bunny", grade, "old edges", old);
         report("bunny", grade, "cuts", cuts);
