@@ -9,6 +9,7 @@
 #include "chapters/ch01_naive_ray_tracing/measurements.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/error.hpp"
+#include "common/file.hpp"
 #include "common/report.hpp"
 
 namespace space {
@@ -97,6 +98,7 @@ void draw_pictures(const ChapterOptions& options) {
 int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
     if (options.figure) return make_figures(chapter01_figures(), options);
+    check_writable(options.out / "results.json");
     const Effort effort = effort_of(options);
     draw_pictures(options);
     const std::vector<SceneCounts> counts = count_scenes(effort, options.seed, options.threads);

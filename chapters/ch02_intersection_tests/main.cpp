@@ -7,6 +7,7 @@
 #include "chapters/ch02_intersection_tests/measurements.hpp"
 #include "chapters/ch02_intersection_tests/tables.hpp"
 #include "common/error.hpp"
+#include "common/file.hpp"
 #include "common/report.hpp"
 
 namespace space {
@@ -18,6 +19,7 @@ int run(int argc, char** argv) {
                                            .about = "Chapter 2: intersection tests and square roots, fast and right",
                                            .defaults = {}});
     if (options.figure) return make_figures(chapter02_figures(), options);
+    check_writable(options.out / "results.json");
 
     const Measurements measured = measure(options);
     print_triangles(measured);

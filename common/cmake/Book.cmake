@@ -110,6 +110,11 @@ function(add_chapter name)
                  -P ${PROJECT_SOURCE_DIR}/tests/house/compare_small.cmake)
         set_tests_properties(${short}.small PROPERTIES LABELS chapter TIMEOUT 300)
     endif()
+    if(EXISTS ${dir}/measurements.cpp)  # it writes results
+        add_test(NAME ${short}.out_is_checked_first COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}>
+                 -D OUT=${dir}/main.cpp/no_directory -P ${PROJECT_SOURCE_DIR}/tests/house/out_is_checked_first.cmake)
+        set_tests_properties(${short}.out_is_checked_first PROPERTIES LABELS chapter TIMEOUT 60)
+    endif()
     if(EXISTS ${dir}/CMakeLists.txt)
         add_subdirectory(${dir} ${PROJECT_BINARY_DIR}/chapters/${name})
     endif()
