@@ -10,10 +10,12 @@
 
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/drawings.hpp"
+#include "chapters/ch03_bsp_trees/painter.hpp"
 #include "chapters/ch03_bsp_trees/sketch.hpp"
 #include "chapters/ch03_bsp_trees/tiling.hpp"
 #include "common/camera.hpp"
 #include "common/image.hpp"
+#include "common/pcg32.hpp"
 #include "common/scene_shapes.hpp"
 
 namespace space {
@@ -163,6 +165,49 @@ void draw_fragments_hit(const Options& options) {
         }
     }
     write_drawing(options.out, "fig_03_05", svg);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// 3.9 A scene, painted
+
+namespace {
+
+/// Tells neighbouring fragments apart: a little lighter or darker.
+float tint(std::size_t fragment) { return 0.82f + 0.18f * Pcg32(fragment).uniform(); }
+
+}  // namespace
+
+void draw_painting(const Options& options) {
+    constexpr int width = 400, height = 400, samples = 3;  // of each stage; rays for a pixel, both ways
+    Scene scene = make_scene("room:3", options.seed);
+    scene.background = Color(1.0f);  // what is not yet painted
+    std::vector<Corners<3>> polygons;
+    for (const Triangle& triangle : scene.mesh.triangles()) polygons.push_back(corners(triangle));
+    const BspTree<3> tree = BspBuilder<3>::build(polygons);
+    const FragmentRays covers(tree, Grade::exact);
+
+    Image fine(samples * width, samples * height);
+    std::fill_n(&fine.at(0, 0), fine.width() * fine.height(), scene.background);
+    std::vector<Image> stages;
+    std::size_t painted = 0;
+    tree.back_to_front(scene.camera.eye, [&](const Fragment<3>& fragment) {
+        const auto& [a, b, c] = tree.polygons[fragment.polygon];
+        std::vector<Double3> places;
+        for (const Corner<3>& corner : fragment.corners) places.push_back(corner.at);
+        for_pixels_around(places, scene.camera, fine.width(), fine.height(), [&](int x, int y, const Ray& ray) {
+            auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
+            if (!hit || !covers.meets(ray, fragment)) return;
+            hit->triangle = fragment.polygon;
+            fine.at(x, y) = tint(static_cast<std::size_t>(&fragment - tree.fragments.data())) * shade(scene, ray, *hit, [](const Ray&) { return true; });
+        });
+        ++painted;
+        if (painted * 3 / tree.fragments.size() == stages.size()) return;
+        Image& stage = stages.emplace_back(width, height);
+        for (int y = 0; y < fine.height(); ++y)
+            for (int x = 0; x < fine.width(); ++x)
+                stage.at(x / samples, y / samples) += fine.at(x, y) / static_cast<float>(samples * samples);
+    });
+    write_png(options.out / "fig_03_09.png", side_by_side(stages));
 }
 
 }  // namespace space
