@@ -35,6 +35,7 @@ struct Turn {
     bool in_front;  ///< of the parent
     std::optional<std::uint32_t> splitter;
     std::vector<std::size_t> set, front, back, own;
+    /// A piece that lay across, and what it became.
     struct Cut {
         std::size_t whole, front, back;
     };
