@@ -1,8 +1,7 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "chapters/ch03_bsp_trees/measurements.hpp"
+#include "common/report.hpp"
 
 namespace space {
 namespace {
@@ -60,19 +59,26 @@ Chart build_chart(const std::vector<Growth>& growth) {
 
 Chart grades_chart(const std::vector<GradePoint>& grades) {
     Chart chart{.id = "fig_03_13",
-                .title = "Four grades of care: build time against rays that slip between fragments",
-                .x_label = "build time, thick float = 1",
-                .y_label = "slipped per million rays; 0.1: none",
+                .title = "Four grades of care: build time against rays that slip between fragments; "
+                         "labels: the worst polygon's relative area error, and cracks",
+                .x_label = "build time, thick float = 1; labels: worst area error, cracks",
+                .y_label = "slipped per million rays; below 1: none",
                 .log_y = true,
                 .kind = ChartKind::points,
                 .series = {}};
-    for (std::size_t i = 0; i < grades.size(); i += grade_names.size()) {
-        Series series{.name = grades[i].scene, .x = {}, .y = {}};
-        for (std::size_t grade = i; grade < i + grade_names.size(); ++grade) {
-            const GradePoint& point = grades[grade];
+    for (std::size_t grade = 0; grade < grade_names.size(); ++grade) {
+        Series series{.name = grade_names[grade].first, .x = {}, .y = {}};
+        // Two grades without slipped rays stand one above the other, so that labels do not meet.
+        const double nowhere = grade_names[grade].second == Grade::exact ? none : 4.0 * none;
+        for (std::size_t i = 0; i < grades.size(); i += grade_names.size()) {
+            const GradePoint& point = grades[i + grade];
+            const double slipped = point.slipped_per_million();
             series.x.push_back(point.build_ms / grades[i].build_ms);
-            series.y.push_back(std::max(none, point.slipped_per_million()));
-            series.labels.push_back(point.grade);
+            series.y.push_back(slipped > 0.0 ? slipped : nowhere);
+            std::string label = fmt::format("{:.0e}", point.tiling.area_error);
+            if (point.tiling.area_error == 0.0) label = "0";
+            if (point.tiling.cracks) label += fmt::format(", {}", with_commas(point.tiling.cracks));
+            series.labels.push_back(label);
         }
         chart.series.push_back(series);
     }

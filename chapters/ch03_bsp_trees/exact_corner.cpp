@@ -1,5 +1,7 @@
 #include "chapters/ch03_bsp_trees/exact_corner.hpp"
 
+#include <algorithm>
+
 #include "chapters/ch03_bsp_trees/exact_point.hpp"
 
 namespace space {
@@ -188,6 +190,8 @@ int exact_side(const Corners<2>& line, const Meet2& meet) { return side<2>(line,
 
 template <int D>
 int exact_side(const Corners<D>& plane, const Point<D>& point) {
+    // Most corners that the filter leaves open are the plane's own: neighbours in a mesh share them.
+    if (std::find(plane.begin(), plane.end(), point) != plane.end()) return 0;
     return sgn(WholePlane<D>(plane).distance(units<D>(point)));
 }
 

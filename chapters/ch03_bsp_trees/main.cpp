@@ -14,10 +14,13 @@
 #include "chapters/ch03_bsp_trees/measurements.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "common/error.hpp"
+#include "common/file.hpp"
 #include "common/report.hpp"
 
 namespace space {
 namespace {
+
+constexpr const char* default_scene = "room:3";
 
 struct ChapterOptions : Options {
     BspConfig tree = {};
@@ -44,9 +47,10 @@ ChapterOptions read_options(int argc, char** argv) {
     ChapterOptions options{parse_options(argc, argv,
                                          {.name = "ch03_bsp_trees",
                                           .about = "Chapter 3: BSP trees with polygon splitting",
-                                          .defaults = {.scene = "room:3", .width = 240, .height = 180}},
+                                          .defaults = {.scene = default_scene, .width = 240, .height = 180}},
                                          add_tree)};
     options.tree = tree;
+    if (options.small && options.scene == default_scene) options.scene = "lattice";
     if (options.small) options.width = 32, options.height = 24;
     if (options.quick) options.width /= 2, options.height /= 2;
     return options;
@@ -101,6 +105,7 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
 int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
     if (options.figure) return make_figures(chapter03_figures(), options);
+    check_writable(options.out / "results.json");
     const bool times = !options.small;  // they are no test's business
 
     std::uint64_t wrong = draw_pictures(options);

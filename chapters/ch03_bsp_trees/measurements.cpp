@@ -39,7 +39,7 @@ Amounts amounts(const Options& options) {
         return {.sizes = 3, .max_classified = 2'000'000, .max_fragments = 20'000, .rays = 100,
                 .edge_rays = 2'000, .rounds = 1};
     if (options.quick)
-        return {.sizes = 5, .max_classified = 10'000'000, .max_fragments = 100'000, .rays = 300,
+        return {.sizes = 5, .max_classified = 20'000'000, .max_fragments = 100'000, .rays = 300,
                 .edge_rays = 20'000, .rounds = 3};
     return {.sizes = 7, .max_classified = 200'000'000, .max_fragments = 500'000, .rays = 1'000,
             .edge_rays = 1'000'000, .rounds = 5};
@@ -184,8 +184,8 @@ void grow(Growth& growth, const Method& method, const TreeTask& task, const Amou
     if (!growth.points.empty()) {
         const auto work = classified(method, next_placed(growth.points, task.triangles.size()));
         if (work > limits.max_classified) {
-            growth.stopped = fmt::format("{} would take some {:.1g} classifications",
-                                         with_commas(task.triangles.size()), double(work));
+            growth.stopped = fmt::format("{} would take {:.0f} million classifications",
+                                         with_commas(task.triangles.size()), 1e-6 * double(work));
             return;
         }
     }
@@ -253,8 +253,9 @@ std::vector<TreePoint> measure_methods(const std::string& scene, const Options& 
 }
 
 std::vector<TreePoint> measure_scenes(const Options& options) {
-    std::vector<const char*> scenes{"sphereflake", "lattice", "stadium"};
-    if (!options.small) scenes.insert(scenes.end(), {"building:1", "bunny", "dragon_48k"});
+    std::vector<const char*> scenes{"lattice", "stadium"};
+    if (!options.small) scenes.insert(scenes.end(), {"sphereflake", "building:1"});
+    if (!options.small && !options.quick) scenes.insert(scenes.end(), {"bunny", "dragon_48k"});
     std::vector<TreePoint> points;
     Progress progress("trees of scenes", 3 * scenes.size());
     for (const char* name : scenes) {
@@ -292,7 +293,7 @@ int slope_sign(const Ray& ray, const SplitPlane<3>& plane) {
 
 std::vector<Crossings> measure_crossings(const Options& options) {
     std::vector<Crossings> all;
-    for (const char* name : {"soup", "room", "lattice"}) {
+    for (const char* name : {"soup", "stadium", "lattice"}) {
         const Scene scene = make_scene(name, options.seed, options.small);
         const std::vector<Triangle> triangles = scene.mesh.triangles();
         const auto bsp = Bsp<>::build(triangles);
@@ -322,8 +323,9 @@ std::vector<Crossings> measure_crossings(const Options& options) {
 
 std::vector<GradePoint> measure_grades(const Options& options) {
     const Amounts limits = amounts(options);
-    std::vector<const char*> scenes{"sphereflake"};
-    if (!options.small) scenes.insert(scenes.end(), {"lattice:2", "bunny"});
+    std::vector<const char*> scenes{options.small ? "lattice" : "lattice:2"};
+    if (!options.small) scenes.emplace_back("sphereflake");
+    if (!options.small && !options.quick) scenes.emplace_back("bunny");
     std::vector<GradePoint> points;
     Progress progress("grades", grade_names.size() * scenes.size());
     for (const char* name : scenes) {
