@@ -15,6 +15,7 @@
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/file.hpp"
 #include "common/report.hpp"
 
 namespace space {
@@ -105,6 +106,7 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
 int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
     if (options.figure) return make_figures(chapter03_figures(), options);
+    check_writable(options.out / "results.json");
     check_writable(options.out / "results.json");
     const bool times = !options.small;  // they are no test's business
 
