@@ -87,7 +87,7 @@ function stepThrough(list) {
       else group.setAttribute("display", "none");
     }
     items.forEach((item, i) => item.classList.toggle("now", i === now));
-    count.textContent = `${now} of ${last}`;
+    count.textContent = `${now + 1} of ${last + 1}`;
     for (const [button, , end] of buttons) button.disabled = now === end;
   };
   const button = (sign, name, step, end) => {

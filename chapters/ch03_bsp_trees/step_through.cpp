@@ -60,9 +60,9 @@ Script script_of(const Story& story) {
         const auto now = [&] { return static_cast<int>(script.steps.size()); };
         if (turn.set.size() == 1) {
             script.of_turn.push_back({now(), now(), now()});
-            script.steps.push_back({i, true, fmt::format("The set {} is {} alone: a node without children. Its line parts "
-                                                         "two empty cells.",
-                                                         set, splitter)});
+            script.steps.push_back({i, true, fmt::format("The set {} becomes a node without children. Its line parts two "
+                                                         "empty cells.",
+                                                         set)});
             continue;
         }
         Steps steps{now(), now() + 1, now() + 1 + static_cast<int>(turn.cuts.size())};

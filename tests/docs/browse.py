@@ -224,7 +224,7 @@ for name in (name for name in book if '<ol class="steps">' in (site / name).read
             fault(name, f"step {step} by {how} shows other groups than its own")
         if now["tells"] != [html.unescape(tells[step])]:
             fault(name, f"step {step} by {how} tells {now['tells']}")
-        if now["buttons"] != [step > 0, step > 0, step < last, step < last] or now["count"] != f"{step} of {last}":
+        if now["buttons"] != [step > 0, step > 0, step < last, step < last] or now["count"] != f"{step + 1} of {last + 1}":
             fault(name, f"step {step} by {how}: its buttons are {now['buttons']}, {now['count']}")
         return now["height"]
 
