@@ -60,6 +60,14 @@ Corners<D> nudged(Corners<D> points, Pcg32& random) {
                 point[axis] = std::nextafter(point[axis], random.below(2) ? 2.0f : -2.0f);
     return points;
 }
+/// Every coordinate moved by its 2^-1 to 2^-22nd: planes that meet at small angles of all sizes.
+template <int D>
+Corners<D> moved(Corners<D> points, Pcg32& random) {
+    const float size = std::ldexp(1.0f, -1 - static_cast<int>(random.below(22)));
+    for (auto& point : points)
+        for (int axis = 0; axis < D; ++axis) point[axis] += size * random.uniform(-1.0f, 1.0f);
+    return points;
+}
 /// Through (nearly) the given point: its sides are decided in the last bits.
 template <int D>
 Corners<D> through(const DoublePoint<D>& p, Pcg32& random, const MakeFloat& number) {
@@ -98,11 +106,14 @@ void compare_meet(const M& meet, const std::vector<Corners<D>>& planes, Pcg32& r
 }
 
 /// Makes polygon, first plane and second plane, asks for all their meets and the sides of those.
-Tally compare_all(int rounds, std::uint64_t seed, const MakeFloat& number, bool nearly_the_same) {
+enum class Angles { any, small, tiny };
+Tally compare_all(int rounds, std::uint64_t seed, const MakeFloat& number, Angles angles) {
     Pcg32 random(seed);
     Tally tally;
     const auto plane_near = [&]<int D>(const Corners<D>& other) {
-        return nearly_the_same ? nudged<D>(other, random) : corners_of<D>(random, number);
+        return angles == Angles::tiny    ? nudged<D>(other, random)
+               : angles == Angles::small ? moved<D>(other, random)
+                                         : corners_of<D>(random, number);
     };
     for (int i = 0; i < rounds; ++i) {
         const Corners<3> polygon = corners_of<3>(random, number), p = plane_near.template operator()<3>(polygon),
@@ -134,8 +145,8 @@ Tally compare_all(int rounds, std::uint64_t seed, const MakeFloat& number, bool 
     return tally;
 }
 
-void check(const char* name, std::uint64_t seed, const MakeFloat& number, bool nearly_the_same = false) {
-    const Tally tally = compare_all(each, seed, number, nearly_the_same);
+void check(const char* name, std::uint64_t seed, const MakeFloat& number, Angles angles = Angles::any) {
+    const Tally tally = compare_all(each, seed, number, angles);
     fmt::print("  {}: {} sides, {} of them on, of the others the filter decides {:.2f} %; {} meets\n", name,
                tally.decisions, tally.on,
                100.0 * static_cast<double>(tally.filtered) / static_cast<double>(tally.decisions - tally.on), tally.meets);
@@ -153,9 +164,11 @@ TEST_CASE("sides of corners are CGAL's, no filter errs and every corner is withi
 TEST_CASE("the same for whole numbers, where corners lie on planes and planes coincide") {
     check("whole numbers", 2, small_whole);
 }
-TEST_CASE("the same for planes that meet at tiny angles") {
-    check("tiny angles", 3, ordinary, true);
-    check("tiny angles between whole numbers", 4, small_whole, true);
+TEST_CASE("the same for planes that meet at small and tiny angles") {
+    check("small angles", 12, ordinary, Angles::small);
+    check("small angles, far away", 13, far_away, Angles::small);
+    check("tiny angles", 3, ordinary, Angles::tiny);
+    check("tiny angles between whole numbers", 4, small_whole, Angles::tiny);
 }
 TEST_CASE("the same far from the origin") {
     check("far away", 5, far_away);
@@ -175,10 +188,19 @@ TEST_CASE("the same for floats of all exponents") {
 }
 
 TEST_CASE("the filter leaves less than one side in a thousand of random corners to exact numbers") {
-    const Tally tally = compare_all(each, 10, ordinary, false);
+    const Tally tally = compare_all(each, 10, ordinary, Angles::any);
     // Of the sides asked: a plane through the point rounded to float is far from it for doubles; the planes that the meet
     // lies on can't be filtered.
     CHECK(static_cast<double>(tally.filtered + tally.on) > 0.999 * static_cast<double>(tally.decisions));
+}
+
+TEST_CASE("three points on a line in double that are none in exact arithmetic are told apart") {
+    const float n = 0x1p23f, e = 0x1p-29f;
+    const Corners<3> thin{{{e, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}}}, line{{{0, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}}};
+    CHECK_FALSE(is_on_a_line(thin));
+    CHECK(is_on_a_line(line));
+    CHECK(cgal_side(thin, Double3(0, 0, 1)) != 0);
+    CHECK(cgal_side(line, Double3(0, 0, 1)) == 0);
 }
 
 // ---- properties ---------------------------------------------------------------------------------------------------
