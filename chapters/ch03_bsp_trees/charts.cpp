@@ -101,7 +101,7 @@ Chart rays_chart(const std::vector<Growth>& growth) {
     };
     add("naive: tests", "soup", "weighted", [](const TreePoint& p) { return double(p.polygons); });
     add("nodes, icosphere", "icosphere", "weighted", nodes);
-    add("the same, free", "icosphere", "free", nodes);
+    add("icosphere, free", "icosphere", "free", nodes);
     add("nodes, soup", "soup", "weighted", nodes);
     add("nodes, teapot", "teapot", "weighted", nodes);
     add("tests, soup", "soup", "weighted", tests);

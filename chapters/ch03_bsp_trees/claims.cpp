@@ -28,25 +28,42 @@ struct Bounded {
 
     std::string text() const {
         return fmt::format("{} of {} series{}", within, series,
-                           beyond.empty() ? "" : " (not " + joined(beyond) + ")");
+                           beyond.empty() ? "" : fmt::format(" (not {})", fmt::join(beyond, "; ")));
     }
 };
 template <class Value, class Bound>
 Bounded bounded(const std::vector<Growth>& growth, const Value& value, const Bound& bound) {
     Bounded result;
-    std::vector<std::pair<std::string, std::vector<std::string>>> beyond;  // methods by scene
+    struct Scene {
+        std::string name;
+        std::vector<std::string> methods = {};
+        double least = infinity, most = -infinity;
+        std::size_t series = 0;
+    };
+    std::vector<Scene> scenes;
     for (const Growth& g : growth) {
         const auto ratio = [&](const TreePoint& p) { return value(p) / bound(double(p.polygons)); };
         const std::optional<double> fitted = slope(g, ratio);
         if (!fitted) continue;
+        if (scenes.empty() || scenes.back().name != g.scene) scenes.push_back({g.scene});
+        Scene& scene = scenes.back();
+        ++scene.series;
         ++result.series;
         result.within += *fitted <= flat;
         if (*fitted <= flat) continue;
-        if (beyond.empty() || beyond.back().first != g.scene) beyond.push_back({g.scene, {}});
-        beyond.back().second.push_back(fmt::format("{} +{:.2f}", g.method, *fitted));
+        scene.methods.push_back(g.method);
+        scene.least = std::min(scene.least, *fitted);
+        scene.most = std::max(scene.most, *fitted);
     }
-    for (const auto& [scene, by] : beyond)
-        result.beyond.push_back(fmt::format("{} by {}", scene, fmt::join(by, ", ")));
+    for (const Scene& scene : scenes) {
+        if (scene.methods.empty()) continue;
+        const bool all = scene.methods.size() == scene.series;
+        const bool one = scene.methods.size() == 1;
+        result.beyond.push_back(
+            fmt::format("{}{}: {:+.2f}{}", scene.name,
+                        all ? "" : fmt::format(" by {}", fmt::join(scene.methods, ", ")), scene.least,
+                        one ? "" : fmt::format(" to {:+.2f}", scene.most)));
+    }
     return result;
 }
 
@@ -95,24 +112,26 @@ ClaimAnswer answer_depth(const std::vector<Growth>& growth) {
 }
 
 ClaimAnswer answer_chain(const std::vector<Growth>& growth) {
-    std::vector<std::string> chains, cures;
-    bool chain = false;
-    for (const char* scene : {"stack", "icosphere"})
-        for (const Method& method : methods) {
-            if (method.straddlers == Straddlers::share) continue;
-            const TreePoint& last = growth_of(growth, scene, method.name).points.back();
-            const std::string text =
-                fmt::format("{} by {} {} of n = {}", scene, method.name, with_commas(last.depth),
-                            with_commas(last.polygons));
+    std::vector<std::string> scenes;
+    std::size_t chains = 0;
+    for (const char* scene : {"stack", "icosphere"}) {
+        std::vector<std::string> chain, other;
+        for (const Growth& g : growth) {
+            if (g.scene != scene) continue;
+            const TreePoint& last = g.points.back();
             const bool is_chain = last.depth + 1 == last.polygons;
-            if (is_chain) chains.push_back(text);
-            else cures.push_back(text);
-            chain = chain || is_chain;
+            (is_chain ? chain : other)
+                .push_back(fmt::format("{} {} (n = {})", g.method, with_commas(last.depth),
+                                       with_commas(last.polygons)));
         }
-    return {"H5", chain ? Verdict::confirmed : Verdict::refuted,
-            fmt::format("chains of depth n - 1: {}; not so: {}", joined(chains), joined(cures)),
-            "a stack of parallel triangles; a geodesic sphere, on which every polygon's plane has all "
-            "others behind it",
+        chains += chain.size();
+        scenes.push_back(fmt::format("{}: depth n - 1 by {}; not so by {}", scene, joined(chain),
+                                     joined(other)));
+    }
+    return {"H5", chains ? Verdict::confirmed : Verdict::refuted,
+            fmt::format("{}", fmt::join(scenes, ". ")),
+            "a stack of parallel triangles, listed from back to front; a geodesic sphere, on which every "
+            "polygon's plane has all others behind it",
             "confirmed if some choice of splitters gives depth n - 1"};
 }
 

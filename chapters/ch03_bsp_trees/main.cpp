@@ -29,13 +29,15 @@ struct ChapterOptions : Options {
 
 ChapterOptions read_options(int argc, char** argv) {
     BspConfig tree{.max_fragments = max_scene_fragments};
+    std::map<std::string, SplitterChoice> splitters;
+    for (const Method& method : methods)
+        if (method.straddlers == Straddlers::split) splitters.emplace(method.name, method.splitter);
+    std::string splitter = "weighted";
     const auto add_tree = [&](CLI::App& app) {
-        std::map<std::string, SplitterChoice> splitters;
-        for (const Method& method : methods)
-            if (method.straddlers == Straddlers::split) splitters.emplace(method.name, method.splitter);
-        app.add_option("--splitter", tree.splitter, "how the pictures' tree chooses its planes")
-            ->transform(CLI::CheckedTransformer(splitters).description(""))
-            ->type_name("first|random|balanced|fewest|weighted|free");
+        app.add_option("--splitter", splitter, "how the pictures' tree chooses its planes")
+            ->check(CLI::IsMember(splitters))
+            ->capture_default_str()
+            ->type_name("NAME");
         app.add_option("--max-fragments", tree.max_fragments, "give the pictures' tree up beyond")
             ->check(CLI::Range(std::size_t{1}, max_scene_fragments))
             ->capture_default_str();
@@ -51,6 +53,7 @@ ChapterOptions read_options(int argc, char** argv) {
                                           .defaults = {.scene = default_scene, .width = 240, .height = 180}},
                                          add_tree)};
     options.tree = tree;
+    options.tree.splitter = splitters.at(splitter);
     if (options.small && options.scene == default_scene) options.scene = "lattice";
     if (options.small) options.width = 32, options.height = 24;
     if (options.quick) options.width /= 2, options.height /= 2;

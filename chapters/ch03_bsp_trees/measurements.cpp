@@ -41,7 +41,7 @@ Amounts amounts(const Options& options) {
     if (options.quick)
         return {.sizes = 5, .max_classified = 20'000'000, .max_fragments = 100'000, .rays = 300,
                 .edge_rays = 20'000, .rounds = 3};
-    return {.sizes = 7, .max_classified = 200'000'000, .max_fragments = 500'000, .rays = 1'000,
+    return {.sizes = 7, .max_classified = 200'000'000, .max_fragments = 600'000, .rays = 1'000,
             .edge_rays = 1'000'000, .rounds = 5};
 }
 
@@ -253,8 +253,8 @@ std::vector<TreePoint> measure_methods(const std::string& scene, const Options& 
 }
 
 std::vector<TreePoint> measure_scenes(const Options& options) {
-    std::vector<const char*> scenes{"lattice", "stadium"};
-    if (!options.small) scenes.insert(scenes.end(), {"sphereflake", "building:1"});
+    std::vector<const char*> scenes{"stadium"};
+    if (!options.small) scenes.insert(scenes.end(), {"sphereflake", "lattice", "building:1"});
     if (!options.small && !options.quick) scenes.insert(scenes.end(), {"bunny", "dragon_48k"});
     std::vector<TreePoint> points;
     Progress progress("trees of scenes", 3 * scenes.size());

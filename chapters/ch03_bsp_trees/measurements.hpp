@@ -36,7 +36,7 @@ inline constexpr std::array methods{
 };
 inline constexpr std::array grade_names{
     std::pair{"thick float", Grade::thick_float}, std::pair{"ordered float", Grade::ordered_float},
-    std::pair{"ordered double", Grade::ordered_double}, std::pair{"exact", Grade::exact}};
+    std::pair{"double", Grade::ordered_double}, std::pair{"exact", Grade::exact}};
 
 /// How much is measured: for tests (--small), for a look (--quick), for the book.
 struct Amounts {
