@@ -72,6 +72,36 @@ TEST_CASE("the suite: BSP tree") {
     check_accelerator<Bsp<>>("bsp", [](std::span<const Triangle> t) { return Bsp<>::build(t); });
 }
 
+TEST_CASE("the suite: BSP tree with free planes, over the exact test") {
+    const SuiteReport report = check_accelerator<Bsp<FilteredExact>, FilteredExact>("bsp, free planes, exact test", [](std::span<const Triangle> t) {
+        return Bsp<FilteredExact>::build(t, {.splitter = SplitterChoice::free});
+    });
+    CHECK(report.exact.wrong() == 0);
+    CHECK(report.exact.beyond_bound == 0);
+}
+
+TEST_CASE("the suite: BSP tree whose subtrees share what straddles, where it doesn't double with every plane") {
+    // Where every polygon crosses every plane there are 2^n references: no scene for sharing.
+    const auto build = [](std::span<const Triangle> t) {
+        return Bsp<>::build(t, {.straddlers = Straddlers::share, .max_fragments = 30'000});
+    };
+    SuiteOptions options;
+    std::vector<std::string> refused;
+    std::erase_if(options.scenes, [&](const TestScene& scene) {
+        try {
+            build(scene.triangles);
+            return false;
+        } catch (const Error&) {
+            refused.push_back(scene.name);
+            return true;
+        }
+    });
+    check_accelerator<Bsp<>>("bsp, shared", build, options);
+    CHECK(options.scenes.size() > 18);
+    CHECK(std::find(refused.begin(), refused.end(), "equal centroids") != refused.end());
+    CHECK(std::find(refused.begin(), refused.end(), "whole numbers") != refused.end());
+}
+
 TEST_CASE("every grade and choice of splitters gives the naive loop's hits on random triangles") {
     const std::vector<Triangle> triangles = soup(60, 0.6f, 5);
     const auto naive = Naive<FilteredExact>::build(triangles);

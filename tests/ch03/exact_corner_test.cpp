@@ -158,7 +158,7 @@ void check(const char* name, std::uint64_t seed, const MakeFloat& number, Angles
 
 }  // namespace
 
-TEST_CASE("sides of corners are CGAL's, no filter errs and every corner is within its error: random planes") {
+TEST_CASE("sides of corners of random planes are CGAL's, no filter errs, and every corner is within its error") {
     check("ordinary", 1, ordinary);
 }
 TEST_CASE("the same for whole numbers, where corners lie on planes and planes coincide") {
