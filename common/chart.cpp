@@ -307,14 +307,17 @@ class Script {
     }
 
     void key() {
-        double x = left_;
+        double x = left_, letters = 0;
+        for (const Series& series : chart_.series) letters += character_width * static_cast<double>(series.name.size());
+        // Some fonts are wider than the one that the width of a character is from: what is tight moves together.
+        const double gap = std::min(44.0, (chart_width - left_ - 24.0 - letters) / static_cast<double>(chart_.series.size()));
         for (std::size_t s = 0; s < chart_.series.size(); ++s) {
             const std::string& name = chart_.series[s].name;
             add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 1 linecolor rgb '{}'",
                 (x + 6) / chart_width, 1 - 44 / chart_height, bars() ? 5 : point_types[s % point_types.size()],
                 svg_color(ink(s)));
             label(name, x + 18, 50, "left", Ink::ink);
-            x += 44 + character_width * static_cast<double>(name.size());
+            x += gap + character_width * static_cast<double>(name.size());
         }
     }
 
