@@ -69,6 +69,18 @@ struct TreePoint {
     double tests_per_ray() const { return double(triangles_tested) / double(rays); }
 };
 
+/// What is built, and what the answers of the naive loop are.
+struct TreeTask {
+    std::string scene;
+    std::vector<Triangle> triangles;
+    std::vector<Ray> rays;
+    std::vector<std::optional<Hit>> truth;
+
+    TreeTask(std::string name, std::vector<Triangle> all, const Options& options);
+};
+/// @throws Error where the tree would have more than max_fragments
+TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments);
+
 /// The trees of one scene, one for each method.
 std::vector<TreePoint> measure_methods(const std::string& scene, const Options& options);
 /// Scenes whose size is what it is, by three methods; those on this machine.
