@@ -14,6 +14,6 @@ void draw_fragments_hit(const Options& options);   ///< fig_03_05
 void draw_chain(const Options& options);           ///< fig_03_06
 void draw_ray(const Options& options);             ///< fig_03_07
 void draw_painting(const Options& options);        ///< fig_03_09
-void draw_step_through(const Options& options);   ///< fig_03_10
+void draw_step_through(const Options& options);    ///< fig_03_10
 
 }  // namespace space

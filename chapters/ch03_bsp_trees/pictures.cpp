@@ -22,7 +22,8 @@ namespace space {
 namespace {
 
 /// The palette's colours as a picture's pixels: linear.
-constexpr Color sky{0.093f, 0.456f, 0.815f}, yellow{0.871f, 0.768f, 0.054f}, vermillion{0.665f, 0.112f, 0.0f};
+constexpr Color sky{0.093f, 0.456f, 0.815f}, yellow{0.871f, 0.768f, 0.054f},
+    vermillion{0.665f, 0.112f, 0.0f};
 
 /// The mesh's tree in one grade, and its fragments.
 struct Graded {
@@ -47,18 +48,25 @@ struct View {
 
 class Microscope {
   public:
-    Microscope(const std::vector<Triangle>& triangles, const Spot& spot) : triangles_(triangles), spot_(spot) {
-        const auto normal = [&](std::uint32_t i) { return glm::normalize(SplitPlane<3>(corners(triangles[i])).normal); };
-        // From this near, directions in floats tell points apart that are closer than floats on the surface.
+    Microscope(const std::vector<Triangle>& triangles, const Spot& spot)
+        : triangles_(triangles), spot_(spot) {
+        const auto normal = [&](std::uint32_t i) {
+            return glm::normalize(SplitPlane<3>(corners(triangles[i])).normal);
+        };
+        // From this near, directions in floats tell points apart that are closer than floats on the
+        // surface.
         constexpr double distance = 0.002;
-        camera_.eye = Point3(spot.at + distance * glm::normalize(normal(spot.triangles[0]) + normal(spot.triangles[1])));
+        camera_.eye = Point3(spot.at + distance * glm::normalize(normal(spot.triangles[0]) +
+                                                                 normal(spot.triangles[1])));
         camera_.target = Point3(spot.at);
-        camera_.field_of_view = static_cast<float>(2.0 * std::atan(0.5 * window / distance) * 180.0 / std::numbers::pi);
+        camera_.field_of_view =
+            static_cast<float>(2.0 * std::atan(0.5 * window / distance) * 180.0 / std::numbers::pi);
         // Upwards along the edge.
         for (int i = 0; i < 3; ++i) {
             const auto& first = corners(triangles[spot.triangles[0]]);
             const auto& second = corners(triangles[spot.triangles[1]]);
-            if (std::ranges::find(second, first[i]) != second.end() && std::ranges::find(second, first[(i + 1) % 3]) != second.end())
+            if (std::ranges::find(second, first[i]) != second.end() &&
+                std::ranges::find(second, first[(i + 1) % 3]) != second.end())
                 camera_.up = glm::normalize(first[(i + 1) % 3] - first[i]);
         }
     }
@@ -70,7 +78,8 @@ class Microscope {
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 const Ray ray = camera_ray(camera_, frame, x + 0.5, y + 0.5, side, side);
-                const bool one = fragments.meets(ray, spot_.triangles[0]), other = fragments.meets(ray, spot_.triangles[1]);
+                const bool one = fragments.meets(ray, spot_.triangles[0]),
+                           other = fragments.meets(ray, spot_.triangles[1]);
                 view.leaks += !one && !other;
                 view.image.at(x, y) = one ? sky : other ? yellow : vermillion;
             }
@@ -87,8 +96,11 @@ class Microscope {
 std::vector<Spot> spots(const BspTree<3>& tree) {
     using Edge = std::array<float, 6>;
     const auto edge_of = [&](std::uint32_t polygon, int edge) {
-        std::array<Point3, 2> ends{tree.polygons[polygon][edge], tree.polygons[polygon][(edge + 1) % 3]};
-        const auto less = [](const Point3& p, const Point3& q) { return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z}; };
+        std::array<Point3, 2> ends{tree.polygons[polygon][edge],
+                                   tree.polygons[polygon][(edge + 1) % 3]};
+        const auto less = [](const Point3& p, const Point3& q) {
+            return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
+        };
         if (less(ends[1], ends[0])) std::swap(ends[0], ends[1]);
         return Edge{ends[0].x, ends[0].y, ends[0].z, ends[1].x, ends[1].y, ends[1].z};
     };
@@ -98,10 +110,13 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
     std::vector<Spot> found;
     for (const Fragment<3>& fragment : tree.fragments)
         for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
-            const Carrier before = fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()].carrier;
+            const Carrier before =
+                fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()]
+                    .carrier;
             if (!before.is_original() || fragment.corners[i].carrier.is_original()) continue;
             const auto& both = owners[edge_of(fragment.polygon, before.edge())];
-            if (both.size() == 2) found.push_back({{both[0], both[1]}, fragment.polygon, fragment.corners[i].at});
+            if (both.size() == 2)
+                found.push_back({{both[0], both[1]}, fragment.polygon, fragment.corners[i].at});
         }
     return found;
 }
@@ -130,37 +145,51 @@ void draw_fragments_hit(const Options& options) {
     const std::vector<Spot> in_order = spots(graded[1].tree);
     const auto both_cut = [&](const Spot& spot) {
         const auto here = [&](const Spot& other) {
-            return other.triangles == spot.triangles && other.cut != spot.cut && glm::distance(other.at, spot.at) < Microscope::window;
+            return other.triangles == spot.triangles && other.cut != spot.cut &&
+                   glm::distance(other.at, spot.at) < Microscope::window;
         };
         return std::ranges::any_of(in_order, here);
     };
     for (const Spot& spot : spots(graded[0].tree)) {
         constexpr int coarse = 24;
         const Microscope microscope(triangles, spot);
-        const auto leaks_in = [&](std::size_t grade) { return microscope.look(*graded[grade].fragments, coarse).leaks; };
+        const auto leaks_in = [&](std::size_t grade) {
+            return microscope.look(*graded[grade].fragments, coarse).leaks;
+        };
         const std::uint64_t leaks = leaks_in(0);
         if (leaks <= std::min(most[0], most[1])) continue;
         const std::uint64_t ordered = leaks_in(1), still = std::min(leaks, ordered);
-        const bool closed = ordered == 0 && leaks > most[0] && both_cut(spot), open = still > most[1] && !both_cut(spot);
-        if ((!closed && !open) || leaks_in(3) > 0) continue;  // at a vertex, where other triangles are about
+        const bool closed = ordered == 0 && leaks > most[0] && both_cut(spot),
+                   open = still > most[1] && !both_cut(spot);
+        if ((!closed && !open) || leaks_in(3) > 0)
+            continue;  // at a vertex, where other triangles are about
         if (closed) most[0] = leaks, shown[0] = spot;
         if (open) most[1] = still, shown[1] = spot;
     }
 
     constexpr int side = 150, gap = 8;
-    Svg svg("fig_03_05", "Two places on a teapot's edges, seen by rays that hit fragments in place of triangles, for four grades; leaks are marked",
+    Svg svg("fig_03_05",
+            "Two places on a teapot's edges, seen by rays that hit fragments in place of "
+            "triangles, for four grades; leaks are marked",
             4 * side + 5 * gap, 524);
-    constexpr std::array titles{"an edge at which both triangles are cut", "an edge at which only one is cut: a T-junction"};
+    constexpr std::array titles{"an edge at which both triangles are cut",
+                                "an edge at which only one is cut: a T-junction"};
     for (std::size_t row = 0; row < shown.size(); ++row) {
         const Microscope microscope(triangles, shown[row]);
         svg.text({320, static_cast<float>(22 + 262 * row)}, titles[row], {.bold = true});
         for (std::size_t i = 0; i < graded.size(); ++i) {
             const View view = microscope.look(*graded[i].fragments, side);
-            const auto left = static_cast<float>(gap + static_cast<int>(i) * (side + gap)), top = static_cast<float>(38 + 262 * row);
-            svg.picture({left, top}, {side, side}, view.image, fmt::format("place-{}-{}", row + 1, i + 1));
+            const auto left = static_cast<float>(gap + static_cast<int>(i) * (side + gap)),
+                       top = static_cast<float>(38 + 262 * row);
+            svg.picture({left, top}, {side, side}, view.image,
+                        fmt::format("place-{}-{}", row + 1, i + 1));
             svg.rect({left, top}, {side, side}, {.stroke = Ink::quiet});
             svg.text({left + 0.5f * side, top + side + 20}, graded[i].name, {.size = 16});
-            svg.text({left + 0.5f * side, top + side + 42}, view.leaks ? fmt::format("{:.1f} % leak", 100.0 * static_cast<double>(view.leaks) / (side * side)) : "no leak",
+            svg.text({left + 0.5f * side, top + side + 42},
+                     view.leaks
+                         ? fmt::format("{:.1f} % leak",
+                                       100.0 * static_cast<double>(view.leaks) / (side * side))
+                         : "no leak",
                      {.ink = view.leaks ? Ink::vermillion : Ink::quiet, .size = 16});
         }
     }
@@ -173,12 +202,15 @@ void draw_fragments_hit(const Options& options) {
 namespace {
 
 /// Tells neighbouring fragments apart: a little lighter or darker.
-float tint(std::size_t fragment) { return 0.82f + 0.18f * Pcg32(fragment).uniform(); }
+float tint(std::size_t fragment) {
+    return 0.82f + 0.18f * Pcg32(fragment).uniform();
+}
 
 }  // namespace
 
 void draw_painting(const Options& options) {
-    constexpr int width = 400, height = 400, samples = 3;  // of each stage; rays for a pixel, both ways
+    constexpr int width = 400, height = 400,
+                  samples = 3;  // of each stage; rays for a pixel, both ways
     Scene scene = make_scene("room:3", options.seed);
     scene.background = Color(1.0f);  // what is not yet painted
     std::vector<Corners<3>> polygons;
@@ -194,18 +226,21 @@ void draw_painting(const Options& options) {
         const auto& [a, b, c] = tree.polygons[fragment.polygon];
         std::vector<Double3> places;
         for (const Corner<3>& corner : fragment.corners) places.push_back(corner.at);
-        for_pixels_around(places, scene.camera, fine.width(), fine.height(), [&](int x, int y, const Ray& ray) {
-            auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
-            if (!hit || !covers.meets(ray, fragment)) return;
-            hit->triangle = fragment.polygon;
-            fine.at(x, y) = tint(static_cast<std::size_t>(&fragment - tree.fragments.data())) * shade(scene, ray, *hit, [](const Ray&) { return true; });
-        });
+        for_pixels_around(
+            places, scene.camera, fine.width(), fine.height(), [&](int x, int y, const Ray& ray) {
+                auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
+                if (!hit || !covers.meets(ray, fragment)) return;
+                hit->triangle = fragment.polygon;
+                fine.at(x, y) = tint(static_cast<std::size_t>(&fragment - tree.fragments.data())) *
+                                shade(scene, ray, *hit, [](const Ray&) { return true; });
+            });
         ++painted;
         if (painted * 3 / tree.fragments.size() == stages.size()) return;
         Image& stage = stages.emplace_back(width, height);
         for (int y = 0; y < fine.height(); ++y)
             for (int x = 0; x < fine.width(); ++x)
-                stage.at(x / samples, y / samples) += fine.at(x, y) / static_cast<float>(samples * samples);
+                stage.at(x / samples, y / samples) +=
+                    fine.at(x, y) / static_cast<float>(samples * samples);
     });
     write_png(options.out / "fig_03_09.png", side_by_side(stages));
 }

@@ -21,21 +21,25 @@ Style cell_style(const Story& story, std::size_t cell) {
         node = story.turns[static_cast<std::size_t>(node)].parent;
     }
     constexpr double opacities[] = {0.14, 0.42, 0.26, 0.54, 0.2};
-    return {.stroke = {}, .fill = in_front ? Ink::sky : Ink::orange, .opacity = opacities[cell % 5]};
+    return {
+        .stroke = {}, .fill = in_front ? Ink::sky : Ink::orange, .opacity = opacities[cell % 5]};
 }
 
-void draw_segment(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to, const Style& style) {
+void draw_segment(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to,
+                  const Style& style) {
     const Point2 a = view(from), b = view(to);
     const Vector2 along = glm::normalize(b - a), across = 2.2f * Vector2(-along.y, along.x);
     svg.polygon({a + across, b + across, b - across, a - across}, style);
 }
 
-Point2 beside(const PlaneView& view, const Double2& from, const Double2& to, double along, double away) {
+Point2 beside(const PlaneView& view, const Double2& from, const Double2& to, double along,
+              double away) {
     const Double2 way = glm::normalize(to - from), front(-way.y, way.x);
     return view(from + along * (to - from) + away / view.scale * front);
 }
 
-void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to, Ink ink) {
+void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to,
+                     Ink ink) {
     svg.line(beside(view, from, to, 0.5, 0.0), beside(view, from, to, 0.5, 11.0), {.stroke = ink});
 }
 
@@ -52,7 +56,8 @@ std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn) {
     for (std::size_t i = 0; i < cell.size(); ++i) {
         const Double2 &p = cell[i], &q = cell[(i + 1) % cell.size()];
         const double at_p = plane.distance(p), at_q = plane.distance(q);
-        if (at_p * at_q < 0.0 || at_p == 0.0) ends.push_back(at_p == 0.0 ? p : p + at_p / (at_p - at_q) * (q - p));
+        if (at_p * at_q < 0.0 || at_p == 0.0)
+            ends.push_back(at_p == 0.0 ? p : p + at_p / (at_p - at_q) * (q - p));
     }
     // Of a line through a corner, rounding may leave more than two: the outermost are its ends.
     const Double2 along(plane.normal.y, -plane.normal.x);

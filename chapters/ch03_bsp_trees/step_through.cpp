@@ -1,5 +1,5 @@
-// The build of a BSP tree, step by step: what the builder told its observer becomes the steps of a drawing, through which a
-// page leads its reader.
+// The build of a BSP tree, step by step: what the builder told its observer becomes the steps of a
+// drawing, through which a page leads its reader.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,10 +45,11 @@ struct Script {
 Script script_of(const Story& story) {
     const std::size_t none = story.turns.size();
     Script script;
-    script.steps.push_back({none, false,
-                            fmt::format("{} segments; the ticks mark their fronts. The builder has one set of them, "
-                                        "and no node.",
-                                        story.tree.polygons.size())});
+    script.steps.push_back(
+        {none, false,
+         fmt::format("{} segments; the ticks mark their fronts. The builder has one set of them, "
+                     "and no node.",
+                     story.tree.polygons.size())});
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
         const Turn& turn = story.turns[i];
         const std::string splitter = plain(story.pieces[turn.own.front()]);
@@ -56,49 +57,65 @@ Script script_of(const Story& story) {
         if (turn.parent >= 0)
             set += fmt::format(
                 ", {} {},", turn.in_front ? "in front of" : "behind",
-                plain(story.pieces[story.turns[static_cast<std::size_t>(turn.parent)].own.front()]));
+                plain(
+                    story.pieces[story.turns[static_cast<std::size_t>(turn.parent)].own.front()]));
         const auto now = [&] { return static_cast<int>(script.steps.size()); };
         if (turn.set.size() == 1) {
             script.of_turn.push_back({now(), now(), now()});
-            script.steps.push_back({i, true, fmt::format("The set {} becomes a node without children. Its line parts two "
-                                                         "empty cells.",
-                                                         set)});
+            script.steps.push_back(
+                {i, true,
+                 fmt::format("The set {} becomes a node without children. Its line parts two "
+                             "empty cells.",
+                             set)});
             continue;
         }
         Steps steps{now(), now() + 1, now() + 1 + static_cast<int>(turn.cuts.size())};
-        script.steps.push_back(
-            {i, false, fmt::format("The set {} gets the splitter {}. Its line runs through the coloured part of the plane "
-                                   "only.",
-                                   set, splitter)});
+        script.steps.push_back({i, false,
+                                fmt::format("The set {} gets the splitter {}. Its line runs "
+                                            "through the coloured part of the plane "
+                                            "only.",
+                                            set, splitter)});
         for (const Turn::Cut& cut : turn.cuts)
-            script.steps.push_back({i, false,
-                                    fmt::format("{0} lies across the line of {1} and is cut: {2} is in front of it, {3} "
-                                                "behind.",
-                                                plain(story.pieces[cut.whole]), splitter,
-                                                plain(story.pieces[cut.front]), plain(story.pieces[cut.back]))});
+            script.steps.push_back(
+                {i, false,
+                 fmt::format(
+                     "{0} lies across the line of {1} and is cut: {2} is in front of it, {3} "
+                     "behind.",
+                     plain(story.pieces[cut.whole]), splitter, plain(story.pieces[cut.front]),
+                     plain(story.pieces[cut.back]))});
         const auto side = [&](const std::vector<std::size_t>& part) {
             return part.empty() ? std::string("nothing") : plain(story, part);
         };
-        script.steps.push_back({i, true, fmt::format("In front of {}: {}. Behind it: {}. {} itself stays in the node.",
-                                                     splitter, side(turn.front), side(turn.back), splitter)});
+        script.steps.push_back(
+            {i, true,
+             fmt::format("In front of {}: {}. Behind it: {}. {} itself stays in the node.",
+                         splitter, side(turn.front), side(turn.back), splitter)});
         script.of_turn.push_back(steps);
     }
     script.steps.push_back(
-        {none, true, fmt::format("No set is left. The tree has {} nodes for {} segments, since one was cut, and {} empty "
-                                 "cells at its bottom.",
-                                 story.turns.size(), story.tree.polygons.size(), story.cells.size())});
+        {none, true,
+         fmt::format("No set is left. The tree has {} nodes for {} segments, since one was cut, "
+                     "and {} empty "
+                     "cells at its bottom.",
+                     story.turns.size(), story.tree.polygons.size(), story.cells.size())});
     return script;
 }
 
-bool holds(const std::vector<std::size_t>& set, std::size_t piece) { return std::ranges::find(set, piece) != set.end(); }
+bool holds(const std::vector<std::size_t>& set, std::size_t piece) {
+    return std::ranges::find(set, piece) != set.end();
+}
 
 /// What colour a piece has in a step.
 Ink ink_of(const Story& story, const Step& step, std::size_t piece) {
     if (step.turn == story.turns.size()) return Ink::ink;
     const Turn& turn = story.turns[step.turn];
     if (holds(turn.own, piece)) return Ink::green;
-    if (step.placed) return holds(turn.front, piece) ? Ink::blue : holds(turn.back, piece) ? Ink::vermillion : Ink::quiet;
-    const bool part = std::ranges::any_of(turn.cuts, [&](const Turn::Cut& cut) { return cut.front == piece || cut.back == piece; });
+    if (step.placed)
+        return holds(turn.front, piece)  ? Ink::blue
+               : holds(turn.back, piece) ? Ink::vermillion
+                                         : Ink::quiet;
+    const bool part = std::ranges::any_of(
+        turn.cuts, [&](const Turn::Cut& cut) { return cut.front == piece || cut.back == piece; });
     return part || holds(turn.set, piece) ? Ink::ink : Ink::quiet;
 }
 
@@ -112,7 +129,9 @@ void draw_step_through(const Options& options) {
     const auto number = [](std::int32_t node) { return static_cast<std::size_t>(node); };
 
     constexpr double slot = 34, level = 74, radius = 20;
-    Svg svg("fig_03_10", "The segments A to G and the tree that the builder has made of them, step by step", 676, 356);
+    Svg svg("fig_03_10",
+            "The segments A to G and the tree that the builder has made of them, step by step", 676,
+            356);
     const PlaneView view{.corner = {8, 10}, .scale = 21, .size = heinonen_size};
     const auto place = [&](const Double2& p) { return at(362 + slot * p.x, 32 + level * p.y); };
     const auto begin = [&](int step, std::string_view tells = {}) {
@@ -124,20 +143,24 @@ void draw_step_through(const Options& options) {
         const Step& step = script.steps[static_cast<std::size_t>(k)];
         begin(k, step.tells);
         if (k == last)
-            for (std::size_t i = 0; i < story.cells.size(); ++i) svg.polygon(view(story.cells[i].cell), cell_style(story, i));
+            for (std::size_t i = 0; i < story.cells.size(); ++i)
+                svg.polygon(view(story.cells[i].cell), cell_style(story, i));
         if (step.turn < story.turns.size()) {
             const ConvexCell& cell = story.turns[step.turn].cell;
             const auto& line = story.tree.planes[story.tree.nodes[step.turn].plane];
             if (step.placed) {
-                svg.polygon(view(part_of(cell, line, true)), {.stroke = {}, .fill = Ink::sky, .opacity = 0.4});
-                svg.polygon(view(part_of(cell, line, false)), {.stroke = {}, .fill = Ink::orange, .opacity = 0.4});
+                svg.polygon(view(part_of(cell, line, true)),
+                            {.stroke = {}, .fill = Ink::sky, .opacity = 0.4});
+                svg.polygon(view(part_of(cell, line, false)),
+                            {.stroke = {}, .fill = Ink::orange, .opacity = 0.4});
             } else {
                 svg.polygon(view(cell), {.stroke = {}, .fill = Ink::green, .opacity = 0.2});
             }
         }
         svg.end_group();
     }
-    svg.rect(view({0, heinonen_size}), at(view.scale * view.size, view.scale * view.size), {.stroke = Ink::quiet});
+    svg.rect(view({0, heinonen_size}), at(view.scale * view.size, view.scale * view.size),
+             {.stroke = Ink::quiet});
 
     // Lines stay from the step in which they are chosen.
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
@@ -170,12 +193,14 @@ void draw_step_through(const Options& options) {
             const Ink ink = ink_of(story, step, i);
             draw_segment(svg, view, piece.from, piece.to, {.stroke = {}, .fill = ink});
             draw_front_tick(svg, view, piece.from, piece.to, ink);
-            svg.text(heinonen_name_place(view, piece), written(piece), {.ink = ink, .size = 24, .halo = true});
+            svg.text(heinonen_name_place(view, piece), written(piece),
+                     {.ink = ink, .size = 24, .halo = true});
         }
         if (step.turn < story.turns.size())
             for (std::size_t c = 0; c < story.turns[step.turn].cuts.size(); ++c)
                 if (script.of_turn[step.turn].first_cut + static_cast<int>(c) <= k)
-                    svg.circle(view(cut_point(story, story.turns[step.turn].cuts[c])), 5, {.fill = Ink::vermillion});
+                    svg.circle(view(cut_point(story, story.turns[step.turn].cuts[c])), 5,
+                               {.fill = Ink::vermillion});
         svg.end_group();
     }
 
@@ -198,7 +223,8 @@ void draw_step_through(const Options& options) {
         }
     }
     for (std::size_t i = 0; i < story.cells.size(); ++i) {
-        const Point2 from = place(layout.nodes[number(story.cells[i].node)]), to = place(layout.cells[i]);
+        const Point2 from = place(layout.nodes[number(story.cells[i].node)]),
+                     to = place(layout.cells[i]);
         svg.begin_step(script.of_turn[number(story.cells[i].node)].placed);
         svg.line(from, to, {.stroke = Ink::quiet, .dashed = true});
         svg.rect(moved(to, -14, -14), at(28, 28), {.stroke = Ink::quiet, .fill = Ink::paper});
@@ -208,7 +234,8 @@ void draw_step_through(const Options& options) {
         style.stroke = Ink::quiet;
         svg.rect(moved(to, -14, -14), at(28, 28), style);
         svg.text(moved(to, 0, 6), fmt::format("{}", i + 1), {.size = 18});
-        svg.text(moved(view(story.cells[i].place), 0, 6), fmt::format("{}", i + 1), {.ink = Ink::quiet, .size = 18});
+        svg.text(moved(view(story.cells[i].place), 0, 6), fmt::format("{}", i + 1),
+                 {.ink = Ink::quiet, .size = 18});
         svg.end_group();
     }
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
@@ -217,7 +244,8 @@ void draw_step_through(const Options& options) {
         const Point2 centre = place(layout.nodes[i]);
         const auto node = [&](Ink ink) {
             svg.circle(centre, radius, {.stroke = ink, .fill = Ink::paper});
-            svg.text(moved(centre, 0, 8), written(story.pieces[turn.own.front()]), {.ink = ink, .size = 24});
+            svg.text(moved(centre, 0, 8), written(story.pieces[turn.own.front()]),
+                     {.ink = ink, .size = 24});
         };
         svg.begin_step(steps.chosen, steps.placed);
         node(Ink::green);

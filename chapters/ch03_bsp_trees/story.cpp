@@ -13,12 +13,12 @@ class Watcher {
   public:
     Watcher(Story& story, std::span<const Segment> segments) : story_(story) {
         for (std::uint32_t i = 0; i < segments.size(); ++i)
-            story_.pieces.push_back({std::string(1, static_cast<char>('A' + static_cast<int>(i))), i,
-                                     Double2(segments[i].a), Double2(segments[i].b)});
+            story_.pieces.push_back({std::string(1, static_cast<char>('A' + static_cast<int>(i))),
+                                     i, Double2(segments[i].a), Double2(segments[i].b)});
     }
     template <int D>
-    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t, std::int32_t parent,
-                bool in_front) {
+    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t,
+                std::int32_t parent, bool in_front) {
         story_.turns.push_back({parent, in_front, polygon, {}, {}, {}, {}, {}, {}});
     }
     template <int D>
@@ -51,8 +51,8 @@ class Watcher {
   private:
     template <int D>
     std::size_t add(std::size_t whole, const Fragment<D>& fragment, char suffix) {
-        story_.pieces.push_back({story_.pieces[whole].name + suffix, fragment.polygon, fragment.corners[0].at,
-                                 fragment.corners[1].at});
+        story_.pieces.push_back({story_.pieces[whole].name + suffix, fragment.polygon,
+                                 fragment.corners[0].at, fragment.corners[1].at});
         return story_.pieces.size() - 1;
     }
     Story& story_;
@@ -64,8 +64,8 @@ double distance(const Double2& p, const Double2& from, const Double2& to) {
     return glm::length(p - from - along * way);
 }
 
-/// Of a grid of points the one of the cell that is farthest from its sides and from all pieces; those have names, and count
-/// as nearer than they are.
+/// Of a grid of points the one of the cell that is farthest from its sides and from all pieces;
+/// those have names, and count as nearer than they are.
 Double2 roomy_place(const ConvexCell& cell, std::span<const Piece> pieces) {
     Double2 low(infinity), high(-infinity), best = cell.front();
     for (const Double2& corner : cell) low = glm::min(low, corner), high = glm::max(high, corner);
@@ -79,7 +79,8 @@ Double2 roomy_place(const ConvexCell& cell, std::span<const Piece> pieces) {
             const bool inside = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
             room = std::min(room, inside ? distance(p, a, b) : 0.0);
         }
-        for (const Piece& piece : pieces) room = std::min(room, 0.5 * distance(p, piece.from, piece.to));
+        for (const Piece& piece : pieces)
+            room = std::min(room, 0.5 * distance(p, piece.from, piece.to));
         if (room > most) most = room, best = p;
     }
     return best;
@@ -103,7 +104,8 @@ ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_fr
     return part;
 }
 
-Story watched_build(std::span<const Segment> segments, const BspConfig& config, const ConvexCell& frame) {
+Story watched_build(std::span<const Segment> segments, const BspConfig& config,
+                    const ConvexCell& frame) {
     std::vector<Corners<2>> ends;
     for (const Segment& segment : segments) ends.push_back(corners(segment));
     Story story;
@@ -117,8 +119,8 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config, 
     for (Turn& turn : story.turns)
         turn.cell = turn.parent == BspTree<2>::none
                         ? frame
-                        : part_of(story.turns[static_cast<std::size_t>(turn.parent)].cell, line_of(turn.parent),
-                                  turn.in_front);
+                        : part_of(story.turns[static_cast<std::size_t>(turn.parent)].cell,
+                                  line_of(turn.parent), turn.in_front);
 
     // From left to right: behind a node, then before it.
     const auto visit = [&](const auto& self, std::int32_t node) -> void {
@@ -128,9 +130,11 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config, 
             if (child != BspTree<2>::none)
                 self(self, child);
             else
-                story.cells.push_back(
-                    {node, in_front,
-                     part_of(story.turns[static_cast<std::size_t>(node)].cell, line_of(node), in_front), {}});
+                story.cells.push_back({node,
+                                       in_front,
+                                       part_of(story.turns[static_cast<std::size_t>(node)].cell,
+                                               line_of(node), in_front),
+                                       {}});
         }
     };
     if (!story.tree.nodes.empty()) visit(visit, 0);
@@ -152,7 +156,8 @@ std::string written(const Piece& piece) {
 
 std::string written(const Story& story, std::span<const std::size_t> set) {
     std::string text = "{";
-    for (const std::size_t piece : set) text += (text.size() > 1 ? ", " : "") + written(story.pieces[piece]);
+    for (const std::size_t piece : set)
+        text += (text.size() > 1 ? ", " : "") + written(story.pieces[piece]);
     return text + "}";
 }
 
@@ -161,13 +166,16 @@ TreeLayout layout_of(const Story& story) {
     layout.nodes.resize(story.turns.size());
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
         const std::int32_t parent = story.turns[i].parent;
-        const double level = parent == BspTree<2>::none ? 0.0 : layout.nodes[static_cast<std::size_t>(parent)].y + 1.0;
+        const double level = parent == BspTree<2>::none
+                                 ? 0.0
+                                 : layout.nodes[static_cast<std::size_t>(parent)].y + 1.0;
         layout.nodes[i].y = level;
         layout.levels = std::max(layout.levels, static_cast<std::size_t>(level) + 2);
     }
     for (std::size_t i = 0; i < story.cells.size(); ++i)
-        layout.cells.push_back({static_cast<double>(i) + 0.5,
-                                layout.nodes[static_cast<std::size_t>(story.cells[i].node)].y + 1.0});
+        layout.cells.push_back(
+            {static_cast<double>(i) + 0.5,
+             layout.nodes[static_cast<std::size_t>(story.cells[i].node)].y + 1.0});
     // A node stands over the middle of its children; those come after it in the list.
     for (std::size_t i = story.turns.size(); i-- > 0;) {
         double sum = 0.0;

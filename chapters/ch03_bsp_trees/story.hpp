@@ -1,6 +1,6 @@
 /// @file
-/// How a BSP tree of named segments came about: the builder's events, kept in order for drawings and for the
-/// step-through page.
+/// How a BSP tree of named segments came about: the builder's events, kept in order for drawings
+/// and for the step-through page.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ struct Piece {
     Double2 from, to;
 };
 
-/// One turn of the builder's loop: a splitter, and where it sends the others. Pieces are numbers in Story::pieces.
+/// One turn of the builder's loop: a splitter, and where it sends the others. Pieces are numbers in
+/// Story::pieces.
 struct Turn {
     std::int32_t parent;
     bool in_front;  ///< of the parent
@@ -57,14 +58,17 @@ struct Story {
     std::vector<Piece> pieces;
     std::vector<Turn> turns;
     std::vector<std::size_t> fragment_pieces;  ///< of the tree's fragments
-    std::vector<EmptyCell> cells;              ///< from back to front in every node: from left to right in a drawn tree
+    std::vector<EmptyCell>
+        cells;  ///< from back to front in every node: from left to right in a drawn tree
 };
 
 /// Where the cut was made.
 Double2 cut_point(const Story& story, const Turn::Cut& cut);
 
-/// Builds the tree and watches. Segments are called A, B, C ..; `frame` is the part of the plane that is shown.
-Story watched_build(std::span<const Segment> segments, const BspConfig& config, const ConvexCell& frame);
+/// Builds the tree and watches. Segments are called A, B, C ..; `frame` is the part of the plane
+/// that is shown.
+Story watched_build(std::span<const Segment> segments, const BspConfig& config,
+                    const ConvexCell& frame);
 
 /// The segments A .. G of Heinonen16 with the splitters that the thesis chooses.
 Story heinonen_story();
@@ -75,8 +79,8 @@ std::string written(const Piece& piece);
 /// "{*A*, *B*}"
 std::string written(const Story& story, std::span<const std::size_t> set);
 
-/// Where the nodes and the empty cells of a drawn tree stand: x in slots from the left, one for each empty cell; y in
-/// levels.
+/// Where the nodes and the empty cells of a drawn tree stand: x in slots from the left, one for
+/// each empty cell; y in levels.
 struct TreeLayout {
     std::vector<Double2> nodes, cells;
     std::size_t levels = 0;  ///< with the cells
