@@ -39,7 +39,7 @@ struct BspConfig {
     std::uint32_t candidates = 8;                 ///< polygons tried for each splitter
     double split_weight = 8.0;                    ///< how many polygons of imbalance a cut is worth avoiding
     double lopsided = 0.1;                        ///< below this share on the smaller side a free plane is tried
-    double thickness_in_roundings = 8.0;          ///< of planes in the inexact grades: times roundoff times the largest coordinate
+    double thickness_in_roundings = 8.0;          ///< of planes that aren't exact: times roundoff times the largest coordinate
     std::uint64_t seed = 1;                       ///< of the random choices
     std::size_t max_fragments = std::numeric_limits<std::uint32_t>::max();
     std::span<const std::uint32_t> order = {};    ///< splitters to take first, by polygon, where they are in the set
@@ -89,7 +89,8 @@ class BspBuilder {
         for (const Corners<D>& polygon : polygons)
             for (const Point<D>& corner : polygon)
                 for (int axis = 0; axis < D; ++axis) largest = std::max(largest, std::abs(corner[axis]));
-        const double roundoff = config.grade == Grade::ordered_double ? 0x1p-53 : 0x1p-24;
+        const bool floats = config.grade == Grade::thick_float || config.grade == Grade::ordered_float;
+        const double roundoff = floats ? 0x1p-24 : 0x1p-53;
         thickness_ = config.thickness_in_roundings * roundoff * static_cast<double>(largest);
     }
 
@@ -226,11 +227,11 @@ class BspBuilder {
     Tally tally_of(const Candidate& candidate, const Set& set, double limit = infinity) {
         const auto number = static_cast<std::uint32_t>(tree_.planes.size());
         tree_.planes.push_back(candidate.plane);  // while it is counted
-        // Counting a polygon's plane decides nothing that must be exact: doubles do. But a free plane has to part the set: if
-        // only rounding said so, the builder would take the same plane again and again.
+        // Counting a polygon's plane decides nothing that must be exact: doubles do, with a thickness, so that neighbours
+        // which touch the plane don't count as cut. But a free plane has to part the set: if only rounding said so, the
+        // builder would take the same plane again and again.
         const bool in_double = config_.grade == Grade::exact && candidate.polygon;
-        const Splitter<D> counter(tree_.polygons, tree_.planes, in_double ? Grade::ordered_double : config_.grade,
-                                  in_double ? 0.0 : thickness_);
+        const Splitter<D> counter(tree_.polygons, tree_.planes, in_double ? Grade::ordered_double : config_.grade, thickness_);
         Tally tally;
         for (const Fragment<D>& fragment : set) {
             const Side place = place_of(counter, fragment, candidate, number, sides_);
