@@ -30,6 +30,7 @@ namespace {
 // In drawing units, as everything below.
 constexpr double chart_width = 640, chart_height = 420;
 constexpr double text_size = 17, line_height = 21, text_gap = 12;
+constexpr double symbol_width = 18;  // with the gap to the name behind it
 /// Mean width of a character, for margins. DejaVu Sans, the widest of the style block's fonts, has about 0.6.
 constexpr double character_width = 0.6 * text_size;
 
@@ -159,7 +160,8 @@ class Script {
             for (const Series& series : chart.series)
                 name_length = std::max({name_length, series.name.size(), series.note.size()});
         left_ = 20 + character_width * static_cast<double>(tick_length);
-        right_ = chart_width - std::max(24.0, text_gap + character_width * static_cast<double>(name_length));
+        right_ = chart_width -
+                 std::max(24.0, text_gap + symbol_width + character_width * static_cast<double>(name_length));
         top_ = keyed() ? 80 : 44;
     }
 
@@ -189,6 +191,12 @@ class Script {
         add("set label {} at screen {:.5f},{:.5f} {} font ',{}' textcolor rgb '{}'", quoted(text), x / chart_width,
             // gnuplot centres text at the given height: a third of its size above the base line
             1.0 - (y - text_size / 3) / chart_height, place, text_size, svg_color(ink));
+    }
+    /// What stands for the series in the chart, before its name at (x, y).
+    void symbol(std::size_t series, double x, double y) {
+        add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 1 linecolor rgb '{}'",
+            (x + 6) / chart_width, 1 - (y - text_size / 3) / chart_height,
+            bars() ? 5 : point_types[series % point_types.size()], svg_color(ink(series)));
     }
     double x_at(double value) const { return left_ + (right_ - left_) * x_.fraction(value); }
     double y_at(double value) const { return bottom_ - (bottom_ - top_) * y_.fraction(value); }
@@ -257,8 +265,9 @@ class Script {
         for (const Name& name : names) {
             const Series& series = chart_.series[name.series];
             const double base = name.y + text_size / 3 - (series.note.empty() ? 0 : 0.5 * line_height);
-            label(series.name, column, base, "left", text_ink(ink(name.series)));
-            label(series.note, column, base + line_height, "left", text_ink(ink(name.series)));
+            symbol(name.series, column, base);
+            label(series.name, column + symbol_width, base, "left", text_ink(ink(name.series)));
+            label(series.note, column + symbol_width, base + line_height, "left", text_ink(ink(name.series)));
         }
     }
 
@@ -313,10 +322,8 @@ class Script {
         const double gap = std::min(44.0, (chart_width - left_ - 24.0 - letters) / static_cast<double>(chart_.series.size()));
         for (std::size_t s = 0; s < chart_.series.size(); ++s) {
             const std::string& name = chart_.series[s].name;
-            add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 1 linecolor rgb '{}'",
-                (x + 6) / chart_width, 1 - 44 / chart_height, bars() ? 5 : point_types[s % point_types.size()],
-                svg_color(ink(s)));
-            label(name, x + 18, 50, "left", Ink::ink);
+            symbol(s, x, 50);
+            label(name, x + symbol_width, 50, "left", Ink::ink);
             x += gap + character_width * static_cast<double>(name.size());
         }
     }
