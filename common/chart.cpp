@@ -30,7 +30,7 @@ namespace {
 // In drawing units, as everything below.
 constexpr double chart_width = 640, chart_height = 420;
 constexpr double text_size = 17, line_height = 21, text_gap = 12;
-constexpr double symbol_width = 18;  // with the gap to the name behind it
+constexpr double symbol_width = 22;  // with the gaps before and behind it
 /// Mean width of a character, for margins. DejaVu Sans, the widest of the style block's fonts, has about 0.6.
 constexpr double character_width = 0.6 * text_size;
 
@@ -194,8 +194,8 @@ class Script {
     }
     /// What stands for the series in the chart, before its name at (x, y).
     void symbol(std::size_t series, double x, double y) {
-        add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 1 linecolor rgb '{}'",
-            (x + 6) / chart_width, 1 - (y - text_size / 3) / chart_height,
+        add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 0.8 linecolor rgb '{}'",
+            (x + 10) / chart_width, 1 - (y - text_size / 3) / chart_height,
             bars() ? 5 : point_types[series % point_types.size()], svg_color(ink(series)));
     }
     double x_at(double value) const { return left_ + (right_ - left_) * x_.fraction(value); }
@@ -322,8 +322,8 @@ class Script {
         const double gap = std::min(44.0, (chart_width - left_ - 24.0 - letters) / static_cast<double>(chart_.series.size()));
         for (std::size_t s = 0; s < chart_.series.size(); ++s) {
             const std::string& name = chart_.series[s].name;
-            symbol(s, x, 50);
-            label(name, x + symbol_width, 50, "left", Ink::ink);
+            symbol(s, x - 4, 50);
+            label(name, x + symbol_width - 4, 50, "left", Ink::ink);
             x += gap + character_width * static_cast<double>(name.size());
         }
     }
