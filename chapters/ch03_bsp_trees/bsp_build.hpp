@@ -41,7 +41,8 @@ struct BspConfig {
     double lopsided = 0.1;                        ///< below this share on the smaller side a free plane is tried
     double thickness_in_roundings = 8.0;          ///< of planes that aren't exact: times roundoff times the largest coordinate
     std::uint64_t seed = 1;                       ///< of the random choices
-    std::size_t max_fragments = std::numeric_limits<std::uint32_t>::max();
+    std::size_t max_fragments = std::numeric_limits<std::uint32_t>::max();  ///< memory
+    std::uint64_t max_placed = std::numeric_limits<std::uint64_t>::max();  ///< time: polygons put somewhere by all nodes; n^2 / 2 in a chain
     std::span<const std::uint32_t> order = {};    ///< splitters to take first, by polygon, where they are in the set
 };
 
@@ -60,7 +61,7 @@ template <int D, class Observer = NoBspObserver>
 class BspBuilder {
   public:
     /// Polygons without extent (equal corners in the plane, zero area in space) are left out: they hide nothing.
-    /// @throws Error where the tree would have more than config.max_fragments fragments
+    /// @throws Error where the tree would have more than config.max_fragments fragments, or place more than config.max_placed
     static BspTree<D> build(std::span<const Corners<D>> polygons, const BspConfig& config = {}, Observer&& observer = {}) {
         BspBuilder builder(polygons, config, observer);
         builder.run();
@@ -121,6 +122,10 @@ class BspBuilder {
     // [make_node]
     /// Chooses a plane, and sends every polygon of the set to the front, the back, both in two pieces, or into the node.
     Parts make_node(Set set, std::int32_t parent, bool in_front) {
+        placed_ += set.size();
+        if (placed_ > config_.max_placed)
+            throw usage_error(fmt::format("BSP tree: more than {} polygons to place; allow more, or try free planes, which make "
+                                          "no chains", config_.max_placed));
         const auto number = static_cast<std::uint32_t>(tree_.planes.size());
         const Candidate splitter = choose(set);
         tree_.planes.push_back(splitter.plane);
@@ -266,7 +271,8 @@ class BspBuilder {
     Pcg32 random_;
     BspTree<D> tree_;
     double thickness_ = 0.0;
-    std::size_t count_ = 0;
+    std::size_t count_ = 0;      ///< of fragments
+    std::uint64_t placed_ = 0;
     std::vector<int> sides_;
 };
 

@@ -138,13 +138,14 @@ ClaimAnswer answer_chain(const std::vector<Growth>& growth) {
 ClaimAnswer answer_pieces(const Measurements& measured) {
     std::size_t scenes = 0, increased = 0;
     std::vector<std::string> texts, names;
-    std::vector<TreePoint> all = measured.methods;
+    std::vector<TreePoint> all = measured.methods.trees;
     all.insert(all.end(), measured.scenes.begin(), measured.scenes.end());
     for (const TreePoint& split : all) {
         if (split.method != "weighted") continue;
         const auto shared = std::find_if(all.begin(), all.end(), [&](const TreePoint& p) {
             return p.scene == split.scene && p.method == "shared";
         });
+        if (shared == all.end()) continue;  // it was given up
         ++scenes;
         increased += split.fragments > split.polygons && shared->fragments > shared->polygons &&
                      shared->most_pieces > 1;
@@ -173,7 +174,7 @@ ClaimAnswer answer_crossings(const Measurements& measured) {
         names.push_back(c.scene);
     }
     std::uint64_t rays = 0, wrong = 0;
-    for (const auto* points : {&measured.methods, &measured.scenes})
+    for (const auto* points : {&measured.methods.trees, &measured.scenes})
         for (const TreePoint& p : *points) rays += p.rays, wrong += p.wrong;
     for (const Growth& g : measured.growth)
         for (const TreePoint& p : g.points) rays += p.rays, wrong += p.wrong;

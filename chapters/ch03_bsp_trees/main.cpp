@@ -28,7 +28,7 @@ struct ChapterOptions : Options {
 };
 
 ChapterOptions read_options(int argc, char** argv) {
-    BspConfig tree{.max_fragments = max_scene_fragments};
+    BspConfig tree{.max_fragments = max_scene_fragments, .max_placed = max_scene_placed};
     std::map<std::string, SplitterChoice> splitters;
     for (const Method& method : methods)
         if (method.straddlers == Straddlers::split) splitters.emplace(method.name, method.splitter);

@@ -38,7 +38,7 @@ Amounts amounts(const Options& options) {
     if (options.quick)
         return {.sizes = 5, .max_classified = 20'000'000, .max_fragments = 100'000, .rays = 300,
                 .edge_rays = 20'000, .rounds = 3};
-    return {.sizes = 7, .max_classified = 200'000'000, .max_fragments = 600'000, .rays = 1'000,
+    return {.sizes = 7, .max_classified = 600'000'000, .max_fragments = 1'500'000, .rays = 1'000,
             .edge_rays = 1'000'000, .rounds = 5};
 }
 
@@ -71,7 +71,7 @@ TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& o
 
 TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments) {
     const BspConfig config{.splitter = method.splitter, .straddlers = method.straddlers,
-                           .max_fragments = max_fragments};
+                           .max_fragments = max_fragments, .max_placed = max_scene_placed};
     PlacedCounter counter;
     Stopwatch stopwatch;
     const auto bsp = Bsp<>::build(task.triangles, config, counter);
@@ -99,15 +99,19 @@ TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t m
 // ------------------------------------------------------------------------------------------------
 // Scenes of one size
 
-std::vector<TreePoint> measure_methods(const std::string& scene, const Options& options) {
+MethodTrees measure_methods(const std::string& scene, const Options& options) {
     const TreeTask task(scene, make_scene(scene, options.seed, options.small).mesh.triangles(), options);
-    std::vector<TreePoint> points;
+    MethodTrees result{.scene = scene};
     Progress progress("trees of " + scene, methods.size());
     for (const Method& method : methods) {
-        points.push_back(measure_tree(task, method, max_scene_fragments));
+        try {
+            result.trees.push_back(measure_tree(task, method, max_scene_fragments));
+        } catch (const Error& error) {
+            result.given_up.push_back(fmt::format("{}: {}", method.name, error.what()));
+        }
         progress.step();
     }
-    return points;
+    return result;
 }
 
 std::vector<TreePoint> measure_scenes(const Options& options) {
@@ -222,7 +226,7 @@ std::vector<GradePoint> measure_grades(const Options& options) {
 
 std::uint64_t wrong_answers(const Measurements& measured) {
     std::uint64_t wrong = 0;
-    for (const TreePoint& point : measured.methods) wrong += point.wrong;
+    for (const TreePoint& point : measured.methods.trees) wrong += point.wrong;
     for (const TreePoint& point : measured.scenes) wrong += point.wrong;
     for (const Growth& growth : measured.growth)
         for (const TreePoint& point : growth.points) wrong += point.wrong;

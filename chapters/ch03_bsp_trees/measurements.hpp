@@ -47,8 +47,9 @@ struct Amounts {
     int rounds;                       ///< of timed builds
 };
 Amounts amounts(const Options& options);
-/// Some 2 GB: what a scene's tree may have before the chapter or the lab give it up.
+/// Some 2 GB, and some minutes: where the chapter gives a scene's tree up.
 inline constexpr std::size_t max_scene_fragments = 5'000'000;
+inline constexpr std::uint64_t max_scene_placed = 200'000'000;
 
 /// Rays from all around at points of the scene's box.
 std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
@@ -81,8 +82,13 @@ struct TreeTask {
 /// @throws Error where the tree would have more than max_fragments
 TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments);
 
-/// The trees of one scene, one for each method.
-std::vector<TreePoint> measure_methods(const std::string& scene, const Options& options);
+/// The trees of one scene, one for each method, and which were given up and why.
+struct MethodTrees {
+    std::string scene;
+    std::vector<TreePoint> trees = {};
+    std::vector<std::string> given_up = {};
+};
+MethodTrees measure_methods(const std::string& scene, const Options& options);
 /// Scenes whose size is what it is, by three methods; those on this machine.
 std::vector<TreePoint> measure_scenes(const Options& options);
 
@@ -136,7 +142,8 @@ std::vector<GradePoint> measure_grades(const Options& options);
 
 /// All of it.
 struct Measurements {
-    std::vector<TreePoint> methods, scenes;
+    MethodTrees methods;
+    std::vector<TreePoint> scenes;
     std::vector<Growth> growth;
     std::vector<Crossings> crossings;
     std::vector<GradePoint> grades;
@@ -154,7 +161,7 @@ Chart rays_chart(const std::vector<Growth>& growth);          ///< fig_03_14
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);
 
 /// The trees' counts; times too, where they mean something.
-void print_methods(const std::vector<TreePoint>& trees, bool times);
+void print_methods(const MethodTrees& all, bool times);
 void print_scenes(const std::vector<TreePoint>& scenes, bool times);
 void print_growth(const std::vector<Growth>& growth, bool times);
 void print_crossings(const std::vector<Crossings>& crossings);

@@ -33,14 +33,18 @@ std::string slope_text(const std::optional<double>& slope) {
 
 }  // namespace
 
-void print_methods(const std::vector<TreePoint>& trees, bool times) {
-    print_heading(fmt::format("{}: {} polygons, a tree for each choice of splitters; {} rays, naive: "
-                              "{} tests per ray",
-                              trees.front().scene, with_commas(trees.front().polygons),
-                              with_commas(trees.front().rays), with_commas(trees.front().polygons)));
-    Table table = table_with(tree_headings, times, "build, ms");
-    for (const TreePoint& point : trees) add_row(table, tree_cells(point), times, ms_text(point.build_ms));
-    table.print();
+void print_methods(const MethodTrees& all, bool times) {
+    print_heading(fmt::format("{}: a tree for each choice of splitters", all.scene));
+    if (!all.trees.empty()) {
+        const TreePoint& any = all.trees.front();
+        fmt::print("{} polygons; {} rays, each of which takes {} tests naively\n\n", with_commas(any.polygons),
+                   with_commas(any.rays), with_commas(any.polygons));
+        Table table = table_with(tree_headings, times, "build, ms");
+        for (const TreePoint& point : all.trees)
+            add_row(table, tree_cells(point), times, ms_text(point.build_ms));
+        table.print();
+    }
+    for (const std::string& line : all.given_up) fmt::print("Given up: {}.\n", line);
 }
 
 void print_scenes(const std::vector<TreePoint>& scenes, bool times) {

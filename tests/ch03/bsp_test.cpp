@@ -151,3 +151,10 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
 TEST_CASE("a tree that would have more fragments than allowed is refused with one line") {
     CHECK_THROWS_AS(Bsp<>::build(soup(100, 1.0f, 6), {.max_fragments = 200}), Error);
 }
+
+TEST_CASE("a build that would take more placements than allowed is refused with one line, and free planes need fewer") {
+    const std::vector<Triangle> sphere = make_scene("icosphere:6").mesh.triangles();  // 720 of them: a chain
+    CHECK_NOTHROW(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2}));
+    CHECK_THROWS_AS(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2 - 1}), Error);
+    CHECK_NOTHROW(Bsp<>::build(sphere, {.splitter = SplitterChoice::free, .max_placed = 720 * 721 / 10}));
+}
