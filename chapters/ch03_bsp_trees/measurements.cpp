@@ -38,7 +38,7 @@ Amounts amounts(const Options& options) {
     if (options.quick)
         return {.sizes = 5, .max_classified = 20'000'000, .max_fragments = 100'000, .rays = 300,
                 .edge_rays = 20'000, .rounds = 3};
-    return {.sizes = 7, .max_classified = 600'000'000, .max_fragments = 1'500'000, .rays = 1'000,
+    return {.sizes = 7, .max_classified = 500'000'000, .max_fragments = 1'500'000, .rays = 1'000,
             .edge_rays = 1'000'000, .rounds = 5};
 }
 
@@ -69,9 +69,10 @@ TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& o
                  [&](std::size_t i) { truth[i] = closest_hit(naive, rays[i]); });
 }
 
-TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments) {
+TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments,
+                       std::uint64_t max_placed) {
     const BspConfig config{.splitter = method.splitter, .straddlers = method.straddlers,
-                           .max_fragments = max_fragments, .max_placed = max_scene_placed};
+                           .max_fragments = max_fragments, .max_placed = max_placed};
     PlacedCounter counter;
     Stopwatch stopwatch;
     const auto bsp = Bsp<>::build(task.triangles, config, counter);
@@ -105,7 +106,7 @@ MethodTrees measure_methods(const std::string& scene, const Options& options) {
     Progress progress("trees of " + scene, methods.size());
     for (const Method& method : methods) {
         try {
-            result.trees.push_back(measure_tree(task, method, max_scene_fragments));
+            result.trees.push_back(measure_tree(task, method, max_scene_fragments, max_scene_placed));
         } catch (const Error& error) {
             result.given_up.push_back(fmt::format("{}: {}", method.name, error.what()));
         }
@@ -131,7 +132,7 @@ std::vector<TreePoint> measure_scenes(const Options& options) {
         const TreeTask task(name, scene->mesh.triangles(), options);
         for (const Method& method : methods)
             if (method.name == "weighted" || method.name == "free" || method.name == "shared") {
-                points.push_back(measure_tree(task, method, max_scene_fragments));
+                points.push_back(measure_tree(task, method, max_scene_fragments, max_scene_placed));
                 progress.step();
             }
     }

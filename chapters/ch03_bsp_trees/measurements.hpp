@@ -80,7 +80,8 @@ struct TreeTask {
     TreeTask(std::string name, std::vector<Triangle> all, const Options& options);
 };
 /// @throws Error where the tree would have more than max_fragments
-TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments);
+TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments,
+                       std::uint64_t max_placed = BspConfig{}.max_placed);
 
 /// The trees of one scene, one for each method, and which were given up and why.
 struct MethodTrees {
