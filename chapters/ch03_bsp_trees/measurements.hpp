@@ -47,9 +47,9 @@ struct Amounts {
     int rounds;                       ///< of timed builds
 };
 Amounts amounts(const Options& options);
-/// Some 2 GB, and some minutes: where the chapter gives a scene's tree up.
+/// Some 2 GB, and half a minute: where the chapter gives a scene's tree up.
 inline constexpr std::size_t max_scene_fragments = 5'000'000;
-inline constexpr std::uint64_t max_scene_placed = 200'000'000;
+inline constexpr std::uint64_t max_scene_placed = 100'000'000;
 
 /// Rays from all around at points of the scene's box.
 std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,

@@ -30,9 +30,9 @@ Structure offer(std::string_view name, std::string_view about) {
     return offer<A>(name, about, [](auto&) {});
 }
 
-/// BSP trees outgrow memory on scenes that cut each other often, and patience on convex ones. Some 3 GB and some minutes.
+/// BSP trees outgrow memory on scenes that cut each other often, and patience on convex ones. Some 3 GB and a minute.
 constexpr std::size_t max_fragments = 10'000'000;
-constexpr std::uint64_t max_placed = 500'000'000;
+constexpr std::uint64_t max_placed = 100'000'000;
 
 Structure offer_bsp(std::string_view name, std::string_view about, SplitterChoice splitter,
                     Straddlers straddlers = Straddlers::split) {
