@@ -46,7 +46,7 @@ struct BspConfig {
     std::span<const std::uint32_t> order = {};    ///< splitters to take first, by polygon, where they are in the set
 };
 
-/// What a builder tells whoever watches; each event may be left out of an observer that inherits nothing and shows them all.
+/// What a builder tells whoever watches: nothing, to nobody. An observer has these three; one that needs fewer inherits the rest.
 struct NoBspObserver {
     template <int D>
     void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> /*polygon*/, std::int32_t /*node*/, std::int32_t /*parent*/, bool /*in front of it*/) {}

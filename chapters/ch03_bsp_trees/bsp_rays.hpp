@@ -98,10 +98,8 @@ class Bsp {
 
     template <class Observer = NoBspObserver>
     static Bsp build(std::span<const Triangle> triangles, const Config& config = {}, Observer&& observer = {}) {
-        std::vector<Corners<3>> polygons;
-        for (const Triangle& triangle : triangles) polygons.push_back(corners(triangle));
         Bsp bsp;
-        bsp.tree_ = BspBuilder<3, Observer>::build(polygons, config, std::forward<Observer>(observer));
+        bsp.tree_ = BspBuilder<3, Observer>::build(corners(triangles), config, std::forward<Observer>(observer));
         return bsp;
     }
     const BspTree<3>& tree() const { return tree_; }

@@ -199,8 +199,7 @@ std::vector<GradePoint> measure_grades(const Options& options) {
             progress.step(grade_names.size());
             continue;
         }
-        std::vector<Corners<3>> polygons;
-        for (const Triangle& triangle : scene->mesh.triangles()) polygons.push_back(corners(triangle));
+        const std::vector<Corners<3>> polygons = corners(scene->mesh.triangles());
 
         std::vector<std::function<void()>> builds;
         std::vector<BspTree<3>> trees(grade_names.size());

@@ -34,6 +34,21 @@ void for_pixels_around(const Corners& corners, const Camera& camera, int width, 
             pixel(x, y, camera_ray(camera, frame, x + 0.5, y + 0.5, width, height));
 }
 
+/// Calls pixel(x, y, ray, hit) for the pixels that show the fragment, with its triangle's hit.
+template <class Pixel>
+void for_pixels_of(const Fragment<3>& fragment, const BspTree<3>& tree, const FragmentRays& covers,
+                   const Camera& camera, int width, int height, const Pixel& pixel) {
+    const auto& [a, b, c] = tree.polygons[fragment.polygon];
+    std::vector<Double3> corners;
+    for (const Corner<3>& corner : fragment.corners) corners.push_back(corner.at);
+    for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
+        auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
+        if (!hit || !covers.meets(ray, fragment)) return;
+        hit->triangle = fragment.polygon;
+        pixel(x, y, ray, *hit);
+    });
+}
+
 // [painter]
 /// What each pixel shows when the fragments are laid one over the other, back to front.
 inline DepthBuffer paint(const BspTree<3>& tree, Grade grade, const Camera& camera, int width,
@@ -41,15 +56,10 @@ inline DepthBuffer paint(const BspTree<3>& tree, Grade grade, const Camera& came
     const FragmentRays covers(tree, grade);
     DepthBuffer picture(width, height);
     tree.back_to_front(camera.eye, [&](const Fragment<3>& fragment) {
-        const auto& [a, b, c] = tree.polygons[fragment.polygon];
-        std::vector<Double3> corners;
-        for (const Corner<3>& corner : fragment.corners) corners.push_back(corner.at);
-        for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
-            auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
-            if (!hit || !covers.meets(ray, fragment)) return;
-            hit->triangle = fragment.polygon;
-            picture.at(x, y) = *hit;  // over whatever was there
-        });
+        for_pixels_of(fragment, tree, covers, camera, width, height,
+                      [&](int x, int y, const Ray&, const Hit& hit) {
+                          picture.at(x, y) = hit;  // over whatever was there
+                      });
     });
     return picture;
 }

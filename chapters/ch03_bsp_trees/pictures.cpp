@@ -8,7 +8,6 @@
 #include <map>
 #include <numbers>
 
-#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/drawings.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "chapters/ch03_bsp_trees/sketch.hpp"
@@ -94,19 +93,9 @@ class Microscope {
 
 /// The corners of fragments that lie on the common edge of two triangles.
 std::vector<Spot> spots(const BspTree<3>& tree) {
-    using Edge = std::array<float, 6>;
-    const auto edge_of = [&](std::uint32_t polygon, int edge) {
-        std::array<Point3, 2> ends{tree.polygons[polygon][edge],
-                                   tree.polygons[polygon][(edge + 1) % 3]};
-        const auto less = [](const Point3& p, const Point3& q) {
-            return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
-        };
-        if (less(ends[1], ends[0])) std::swap(ends[0], ends[1]);
-        return Edge{ends[0].x, ends[0].y, ends[0].z, ends[1].x, ends[1].y, ends[1].z};
-    };
-    std::map<Edge, std::vector<std::uint32_t>> owners;
+    std::map<EdgeKey, std::vector<std::uint32_t>> owners;
     for (std::uint32_t i = 0; i < tree.polygons.size(); ++i)
-        for (int edge = 0; edge < 3; ++edge) owners[edge_of(i, edge)].push_back(i);
+        for (int edge = 0; edge < 3; ++edge) owners[edge_key(tree.polygons[i], edge)].push_back(i);
     std::vector<Spot> found;
     for (const Fragment<3>& fragment : tree.fragments)
         for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
@@ -114,7 +103,7 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
                 fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()]
                     .carrier;
             if (!before.is_original() || fragment.corners[i].carrier.is_original()) continue;
-            const auto& both = owners[edge_of(fragment.polygon, before.edge())];
+            const auto& both = owners[edge_key(tree.polygons[fragment.polygon], before.edge())];
             if (both.size() == 2)
                 found.push_back({{both[0], both[1]}, fragment.polygon, fragment.corners[i].at});
         }
@@ -128,8 +117,7 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
 
 void draw_fragments_hit(const Options& options) {
     const std::vector<Triangle> triangles = teapot(5).triangles();
-    std::vector<Corners<3>> polygons;
-    for (const Triangle& triangle : triangles) polygons.push_back(corners(triangle));
+    const std::vector<Corners<3>> polygons = corners(triangles);
     std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
                                   {Grade::ordered_float, "canonical order", {}},
                                   {Grade::ordered_double, "in double", {}},
@@ -213,9 +201,7 @@ void draw_painting(const Options& options) {
                   samples = 3;  // of each stage; rays for a pixel, both ways
     Scene scene = make_scene("room:3", options.seed);
     scene.background = Color(1.0f);  // what is not yet painted
-    std::vector<Corners<3>> polygons;
-    for (const Triangle& triangle : scene.mesh.triangles()) polygons.push_back(corners(triangle));
-    const BspTree<3> tree = BspBuilder<3>::build(polygons);
+    const BspTree<3> tree = BspBuilder<3>::build(corners(scene.mesh.triangles()));
     const FragmentRays covers(tree, Grade::exact);
 
     Image fine(samples * width, samples * height);
@@ -223,17 +209,12 @@ void draw_painting(const Options& options) {
     std::vector<Image> stages;
     std::size_t painted = 0;
     tree.back_to_front(scene.camera.eye, [&](const Fragment<3>& fragment) {
-        const auto& [a, b, c] = tree.polygons[fragment.polygon];
-        std::vector<Double3> places;
-        for (const Corner<3>& corner : fragment.corners) places.push_back(corner.at);
-        for_pixels_around(
-            places, scene.camera, fine.width(), fine.height(), [&](int x, int y, const Ray& ray) {
-                auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
-                if (!hit || !covers.meets(ray, fragment)) return;
-                hit->triangle = fragment.polygon;
-                fine.at(x, y) = tint(static_cast<std::size_t>(&fragment - tree.fragments.data())) *
-                                shade(scene, ray, *hit, [](const Ray&) { return true; });
-            });
+        const auto number = static_cast<std::size_t>(&fragment - tree.fragments.data());
+        for_pixels_of(fragment, tree, covers, scene.camera, fine.width(), fine.height(),
+                      [&](int x, int y, const Ray& ray, const Hit& hit) {
+                          fine.at(x, y) = tint(number) *
+                                          shade(scene, ray, hit, [](const Ray&) { return true; });
+                      });
         ++painted;
         if (painted * 3 / tree.fragments.size() == stages.size()) return;
         Image& stage = stages.emplace_back(width, height);

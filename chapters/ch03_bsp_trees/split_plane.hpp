@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "common/geometry.hpp"
 
@@ -20,6 +22,16 @@ using Corners = std::array<Point<D>, D>;
 
 inline Corners<3> corners(const Triangle& triangle) { return {triangle.a, triangle.b, triangle.c}; }
 inline Corners<2> corners(const Segment& segment) { return {segment.a, segment.b}; }
+inline std::vector<Corners<3>> corners(std::span<const Triangle> triangles) {
+    std::vector<Corners<3>> all;
+    for (const Triangle& triangle : triangles) all.push_back(corners(triangle));
+    return all;
+}
+inline std::vector<Corners<2>> corners(std::span<const Segment> segments) {
+    std::vector<Corners<2>> all;
+    for (const Segment& segment : segments) all.push_back(corners(segment));
+    return all;
+}
 
 /// The plane through D points. Its front is the side that the normal points to: (b - a) x (c - a) in space, to the left
 /// of a -> b in the plane. Normal and distances are computed in double and not normalised.

@@ -106,11 +106,9 @@ ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_fr
 
 Story watched_build(std::span<const Segment> segments, const BspConfig& config,
                     const ConvexCell& frame) {
-    std::vector<Corners<2>> ends;
-    for (const Segment& segment : segments) ends.push_back(corners(segment));
     Story story;
     Watcher watcher(story, segments);
-    story.tree = BspBuilder<2, Watcher&>::build(ends, config, watcher);
+    story.tree = BspBuilder<2, Watcher&>::build(corners(segments), config, watcher);
     for (const Fragment<2>& fragment : story.tree.fragments)
         story.fragment_pieces.push_back(watcher.number_of(fragment));
     const auto line_of = [&](std::int32_t node) {

@@ -60,29 +60,19 @@ double worst_area_error(const BspTree<3>& tree, Grade grade) {
     return worst;
 }
 
-/// The ends of an edge, in one order for both polygons that have it.
-using Edge = std::array<float, 6>;
-Edge edge_between(const Point3& a, const Point3& b) {
-    const auto key = [](const Point3& p, const Point3& q) { return Edge{p.x, p.y, p.z, q.x, q.y, q.z}; };
-    return std::min(key(a, b), key(b, a));
-}
-Edge original_edge(const Corners<3>& polygon, int edge) {
-    return edge_between(polygon[static_cast<std::size_t>(edge)], polygon[static_cast<std::size_t>((edge + 1) % 3)]);
-}
-
 void count_cracks(const BspTree<3>& tree, Grade grade, Tiling& tiling) {
     struct Cut {
         std::uint32_t polygon;
         ExactPoint at;
     };
-    std::map<std::pair<Edge, std::int32_t>, std::vector<Cut>> cuts;  // by edge and plane
+    std::map<std::pair<EdgeKey, std::int32_t>, std::vector<Cut>> cuts;  // by edge and plane
     for (const Fragment<3>& fragment : tree.fragments)
         for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
             const std::size_t previous = (i + fragment.corners.size() - 1) % fragment.corners.size();
             Carrier edge = fragment.corners[previous].carrier, plane = fragment.corners[i].carrier;
             if (plane.is_original()) std::swap(edge, plane);
             if (!edge.is_original() || plane.is_original()) continue;
-            auto& here = cuts[{original_edge(tree.polygons[fragment.polygon], edge.edge()), plane.id}];
+            auto& here = cuts[{edge_key(tree.polygons[fragment.polygon], edge.edge()), plane.id}];
             const auto same = [&](const Cut& cut) { return cut.polygon == fragment.polygon; };
             if (std::none_of(here.begin(), here.end(), same))
                 here.push_back({fragment.polygon, exact_corner(tree, grade, fragment, i)});
@@ -106,6 +96,11 @@ Double3 random_direction(Pcg32& random) {
 int sign(double value) { return (value > 0.0) - (value < 0.0); }
 
 }  // namespace
+
+EdgeKey edge_key(const Corners<3>& polygon, int edge) {
+    const Point3 &a = polygon[static_cast<std::size_t>(edge)], &b = polygon[static_cast<std::size_t>((edge + 1) % 3)];
+    return std::min(EdgeKey{a.x, a.y, a.z, b.x, b.y, b.z}, EdgeKey{b.x, b.y, b.z, a.x, a.y, a.z});
+}
 
 Tiling measure_tiling(const BspTree<3>& tree, Grade grade) {
     Tiling tiling{.area_error = worst_area_error(tree, grade)};
@@ -153,9 +148,9 @@ int FragmentRays::side_of_edge(const Ray& ray, const Fragment<3>& fragment, std:
 // [side_of_edge]
 
 SlippedRays FragmentRays::at_old_edges(std::uint64_t count, std::uint64_t seed) const {
-    std::map<Edge, std::vector<std::uint32_t>> edges;
+    std::map<EdgeKey, std::vector<std::uint32_t>> edges;
     for (std::uint32_t i = 0; i < tree_.polygons.size(); ++i)
-        for (int edge = 0; edge < 3; ++edge) edges[original_edge(tree_.polygons[i], edge)].push_back(i);
+        for (int edge = 0; edge < 3; ++edge) edges[edge_key(tree_.polygons[i], edge)].push_back(i);
     std::vector<Target> targets;
     for (const auto& [edge, of] : edges)
         if (of.size() == 2)

@@ -11,6 +11,10 @@
 
 namespace space {
 
+/// The ends of an edge, in one order for all polygons that have it.
+using EdgeKey = std::array<float, 6>;
+EdgeKey edge_key(const Corners<3>& polygon, int edge);
+
 /// Areas and cracks of all fragments.
 struct Tiling {
     double area_error = 0.0;  ///< the worst polygon's |sum of its fragments' areas - its area| / its area; 0 is exactly 0

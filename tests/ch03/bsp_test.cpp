@@ -48,8 +48,7 @@ std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) 
 }  // namespace
 
 TEST_CASE("the splitters G, E, B, A give the sets and the tree that Heinonen16 prints") {
-    std::vector<Corners<2>> segments;
-    for (const Segment& segment : heinonen_segments()) segments.push_back(corners(segment));
+    const std::vector<Corners<2>> segments = corners(heinonen_segments());
     const std::uint32_t order[] = {6, 4, 1, 0};
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
         Sets sets;

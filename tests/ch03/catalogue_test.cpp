@@ -20,10 +20,6 @@ constexpr std::uint32_t sizes[] = {100, 200, 400};
 constexpr std::uint32_t rows = 24;
 #endif
 constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact};
-const char* name(Grade grade) {
-    constexpr const char* names[] = {"thick float", "ordered float", "ordered double", "exact"};
-    return names[static_cast<int>(grade)];
-}
 
 /// Every polygon cut by every plane, one after the other, without a tree; of the polygons only every `every`-th.
 std::vector<Fragment<3>> cut_by_all(const std::vector<Corners<3>>& polygons, const std::vector<SplitPlane<3>>& planes, Grade grade,
@@ -181,7 +177,7 @@ TEST_CASE("P3: neighbours that cut their edge in opposite directions get differe
     CHECK(differ[3] == 0);
 
     const std::vector<Triangle> sphere = icosphere(8).triangles();
-    const auto polygons = scenes::polygons(sphere);
+    const auto polygons = corners(sphere);
     const auto planes = random_planes(16, 5);
     for (const Grade grade : grades) {
         const auto fragments = cut_by_all(polygons, planes, grade, 0.0);
@@ -197,7 +193,7 @@ TEST_CASE("P3: neighbours that cut their edge in opposite directions get differe
 
 TEST_CASE("P4: where only one of two neighbours is cut, rays leak through the T-junction; the original triangles and exact corners close it") {
     const std::vector<Triangle> sphere = icosphere(8).triangles();
-    const auto polygons = scenes::polygons(sphere);
+    const auto polygons = corners(sphere);
     const auto planes = random_planes(16, 8);
     const auto bsp = Bsp<FilteredExact>::build(sphere);
     for (const Grade grade : grades) {
@@ -266,7 +262,7 @@ TEST_CASE("P6: without a place for coplanar polygons they are lost or never end;
 TEST_CASE("P7: fragments grow faster than n; more candidates cut less; the bound stops in time") {
     std::array<double, 2> before{};
     for (const std::uint32_t n : sizes) {
-        const auto polygons = scenes::polygons(scenes::soup(n, 1.0f, 11));
+        const auto polygons = corners(scenes::soup(n, 1.0f, 11));
         const auto growth = [&](SplitterChoice choice, std::uint32_t candidates) {
             const BspTree<3> tree = BspBuilder<3>::build(polygons, {.splitter = choice, .candidates = candidates});
             return static_cast<double>(tree.fragments.size()) / n;
@@ -290,7 +286,7 @@ TEST_CASE("P8: a convex body makes a chain whatever polygon is chosen; planes th
         const double angle = 3.14159265358979323846 * i / rows;
         profile.emplace_back(i == 0 || i == rows ? 0.0 : std::sin(angle), -std::cos(angle));
     }
-    const auto polygons = scenes::polygons(lathe(profile, 24).triangles());
+    const auto polygons = corners(lathe(profile, 24).triangles());
     const auto build = [&](SplitterChoice choice) { return BspBuilder<3>::build(polygons, {.splitter = choice}); };
     const std::size_t faces = polygons.size();
     CHECK(faces == 2 * 24 * (rows - 1));

@@ -346,7 +346,7 @@ std::vector<std::uint64_t> bits(const BspTree<D>& tree) {
 }  // namespace
 
 TEST_CASE("the same polygons and seed give the same tree, bit for bit; another seed gives another") {
-    const auto polygons = scenes::polygons(scenes::soup(60, 0.6f, 17));
+    const auto polygons = corners(scenes::soup(60, 0.6f, 17));
     std::vector<Corners<2>> segments;
     for (const auto& p : polygons) segments.push_back({Point2(p[0]), Point2(p[1])});
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})

@@ -227,8 +227,7 @@ TEST_CASE("a fragment has an extent with as many different corners as its dimens
 TEST_CASE("no tree holds a fragment with fewer different corners than its dimension") {
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double})
         for (const float size : {1.0f, 1e-3f}) {
-            std::vector<Corners<3>> polygons;
-            for (const Triangle& t : scenes::soup(100, size, 3)) polygons.push_back(corners(t));
+            const std::vector<Corners<3>> polygons = corners(scenes::soup(100, size, 3));
             std::size_t small = 0;
             for (const Fragment<3>& f : BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .grade = grade}).fragments)
                 small += !Splitter<3>::has_extent(f);
@@ -253,8 +252,7 @@ TEST_CASE("the exact grade keeps a sliver whose corners are the same in double")
 }
 
 TEST_CASE("polygons stay as they were given, and fragments name theirs") {
-    std::vector<Corners<3>> polygons;
-    for (const Triangle& t : scenes::soup(50, 0.7f, 4)) polygons.push_back(corners(t));
+    const std::vector<Corners<3>> polygons = corners(scenes::soup(50, 0.7f, 4));
     for (const Grade grade : grades) {
         const BspTree<3> tree = BspBuilder<3>::build(polygons, {.grade = grade});
         CHECK(tree.polygons == polygons);

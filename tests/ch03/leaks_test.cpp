@@ -17,11 +17,6 @@ constexpr int exact_rays = 4'000, inexact_rays = 20'000, slipped_rays = 15'000;
 constexpr int exact_rays = 150'000, inexact_rays = 100'000, slipped_rays = 25'000;
 #endif
 
-const char* name(Grade grade) {
-    constexpr const char* names[] = {"thick float", "ordered float", "ordered double", "exact"};
-    return names[static_cast<int>(grade)];
-}
-
 /// A closed mesh, and perhaps triangles that cut it before its own do.
 struct Mesh {
     std::string name;
@@ -56,7 +51,7 @@ void report(const std::string& mesh, Grade grade, const char* where, const Leaks
 TEST_CASE("no ray leaks through fragments of the exact grade, at old edges or at new cuts") {
     Leaks all;
     for (const Mesh& mesh : meshes()) {
-        const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.order = mesh.order});
+        const BspTree<3> tree = BspBuilder<3>::build(corners(mesh.triangles), {.order = mesh.order});
         const Gallery gallery(view(tree, Grade::exact), mesh.closed);
         const Leaks old = gallery.at_old_edges(exact_rays, 1), cuts = gallery.at_cuts(exact_rays, 2);
         report(mesh.name, Grade::exact, "old edges", old);
@@ -76,7 +71,7 @@ TEST_CASE("fragments of the inexact grades leak") {
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
         Leaks old, cuts;
         for (const Mesh& mesh : meshes()) {
-            const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.grade = grade, .order = mesh.order});
+            const BspTree<3> tree = BspBuilder<3>::build(corners(mesh.triangles), {.grade = grade, .order = mesh.order});
             const Gallery gallery(view(tree, grade), mesh.closed);
             const Leaks at_old = gallery.at_old_edges(inexact_rays, 3), at_cuts = gallery.at_cuts(inexact_rays, 4);
             report(mesh.name, grade, "old edges", at_old);
@@ -96,7 +91,7 @@ TEST_CASE("fragments of the inexact grades leak") {
 TEST_CASE("edges that both neighbours cut by the same planes: the plain order leaks, the canonical order doesn't") {
     const Mesh mesh = cut_sphere();
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
-        const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.grade = grade, .order = mesh.order});
+        const BspTree<3> tree = BspBuilder<3>::build(corners(mesh.triangles), {.grade = grade, .order = mesh.order});
         const Tiling tiling = measure_tiling(tree, grade);
         const Leaks old = Gallery(view(tree, grade), mesh.closed).at_old_edges(4 * inexact_rays, 5);
         report(mesh.name, grade, "old edges", old);
@@ -109,7 +104,7 @@ TEST_CASE("edges that both neighbours cut by the same planes: the plain order le
 TEST_CASE("the chapter's own count of slipped rays agrees: none in the exact grade, some in floats") {
     const Mesh mesh = cut_sphere();
     for (const Grade grade : {Grade::thick_float, Grade::exact}) {
-        const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.grade = grade, .order = mesh.order});
+        const BspTree<3> tree = BspBuilder<3>::build(corners(mesh.triangles), {.grade = grade, .order = mesh.order});
         const FragmentRays rays(tree, grade);
         const SlippedRays old = rays.at_old_edges(slipped_rays, 6), cuts = rays.at_cuts(slipped_rays, 7);
         CHECK(old.rays > slipped_rays / 2u);
@@ -126,7 +121,7 @@ TEST_CASE("no ray of a million leaks through the bunny's fragments", "[.big]") {
         return;
     }
     for (const Grade grade : {Grade::exact, Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
-        const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(bunny), {.grade = grade});
+        const BspTree<3> tree = BspBuilder<3>::build(corners(bunny), {.grade = grade});
         const Gallery gallery(view(tree, grade), bunny.size());
         const Leaks old = gallery.at_old_edges(1'000'000, 8), cuts = gallery.at_cuts(1'000'000, 9);
         report("bunny", grade, "old edges", old);

@@ -12,13 +12,16 @@
 #include "common/scene_shapes.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 
-namespace space::scenes {
+namespace space {
 
-inline std::vector<Corners<3>> polygons(const std::vector<Triangle>& triangles) {
-    std::vector<Corners<3>> result;
-    for (const Triangle& triangle : triangles) result.push_back(corners(triangle));
-    return result;
+inline const char* name(Grade grade) {
+    constexpr const char* names[] = {"thick float", "ordered float", "ordered double", "exact"};
+    return names[static_cast<int>(grade)];
 }
+
+}  // namespace space
+
+namespace space::scenes {
 
 /// Triangles of small whole numbers: corners on planes, edges in planes, many without area.
 inline std::vector<Triangle> whole_numbers(std::uint32_t count, std::uint32_t range, std::uint64_t seed) {

@@ -23,10 +23,6 @@ const char* name(SplitterChoice choice) {
     constexpr const char* names[] = {"first", "random", "balanced", "fewest splits", "weighted", "free"};
     return names[static_cast<int>(choice)];
 }
-const char* name(Grade grade) {
-    constexpr const char* names[] = {"thick float", "ordered float", "ordered double", "exact"};
-    return names[static_cast<int>(grade)];
-}
 
 /// Counts the cuts of each polygon.
 struct Cuts {
@@ -63,7 +59,7 @@ double largest_coordinate(const std::vector<Corners<3>>& polygons) {
 }
 
 TilingReport examine(const std::vector<Triangle>& triangles, const BspConfig& config) {
-    return examine_tiling(BspBuilder<3>::build(scenes::polygons(triangles), config), config.grade, every);
+    return examine_tiling(BspBuilder<3>::build(corners(triangles), config), config.grade, every);
 }
 
 }  // namespace
@@ -161,7 +157,7 @@ TEST_CASE("the inexact grades fail: areas differ, fragments leave their plane an
         double worst_of_bound = 0.0;
         std::uint64_t beyond = 0;
         for (const TestScene& scene : scenes::tiling_scenes()) {
-            const auto polygons = scenes::polygons(scene.triangles);
+            const auto polygons = corners(scene.triangles);
             Cuts cuts{std::vector<std::uint32_t>(polygons.size())};
             const BspConfig config{.grade = grade};
             const BspTree<3> tree = BspBuilder<3, Cuts&>::build(polygons, config, cuts);
@@ -195,7 +191,7 @@ TEST_CASE("the inexact grades fail: areas differ, fragments leave their plane an
 TEST_CASE("the chapter's own measure of areas and cracks agrees with CGAL's") {
     for (const TestScene& scene : {TestScene{"random", scenes::soup(40, 0.6f, 1)}, {"two spheres", scenes::tiling_scenes()[7].triangles}})
         for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
-            const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(scene.triangles), {.grade = grade});
+            const BspTree<3> tree = BspBuilder<3>::build(corners(scene.triangles), {.grade = grade});
             const Tiling tiling = measure_tiling(tree, grade);
             const TilingReport report = examine_tiling(tree, grade);
             INFO(scene.name << ", " << name(grade));
@@ -211,7 +207,7 @@ TEST_CASE("the bunny is tiled exactly", "[.big]") {
         WARN("the bunny is not installed (package glmark2-data)");
         return;
     }
-    const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(bunny));
+    const BspTree<3> tree = BspBuilder<3>::build(corners(bunny));
     const TilingReport report = examine_tiling(tree, Grade::exact);
     fmt::print("  bunny: {}\n", report.text());
     CHECK(report.is_exact());

@@ -86,7 +86,7 @@ TEST_CASE("painter's order: the last fragment painted in a pixel is of the trian
     std::uint64_t pixels = 0, covered = 0, ties = 0, within = 0, wrong = 0;
     for (const TestScene& scene : painted_scenes()) {
         const ExactOracle oracle = ExactOracle::build(scene.triangles);
-        const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(scene.triangles));
+        const BspTree<3> tree = BspBuilder<3>::build(corners(scene.triangles));
         const CgalFragments fragments(view(tree, Grade::exact));
         const Point3 target = box_of(scene.triangles).centroid();
         for (const Point3& eye : eyes(scene.triangles, 1)) {
@@ -129,8 +129,7 @@ TEST_CASE("painter's order: the last fragment painted in a pixel is of the trian
 TEST_CASE("a fragment is painted before what hides it in the plane, too") {
     // In the plane fragments are seen edge-on from everywhere: rays against segments, by rational arithmetic in the painter's
     // order of the tree of A .. G, from a grid of eyes.
-    std::vector<Corners<2>> segments;
-    for (const Segment& s : heinonen_segments()) segments.push_back(corners(s));
+    const std::vector<Corners<2>> segments = corners(heinonen_segments());
     const BspTree<2> tree = BspBuilder<2>::build(segments);
     int compared = 0;
     for (int ex = 0; ex <= 16; ++ex)
@@ -245,7 +244,7 @@ Differences compare_pictures(const BspTree<3>& tree, const Camera& camera, const
 TEST_CASE("the painter's picture is the z-buffer's, but for pixels at edges and of equal depth") {
     Differences all;
     for (const TestScene& scene : painted_scenes()) {
-        const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(scene.triangles));
+        const BspTree<3> tree = BspBuilder<3>::build(corners(scene.triangles));
         const Aabb box = box_of(scene.triangles);
         Pcg32 random(6);
         for (int view_number = 0; view_number < 3; ++view_number) {
@@ -279,7 +278,7 @@ TEST_CASE("without cuts or in the wrong order the painter's picture is wrong") {
     const Camera camera{.eye = {0, 0, 9}, .target = {0, 0, 0}, .field_of_view = 45};
     Rasteriser rasteriser(camera, 96, 72);
     for (std::uint32_t i = 0; i < 3; ++i) rasteriser.draw(cycle[i], i);
-    const auto polygons = scenes::polygons(cycle);
+    const auto polygons = corners(cycle);
     const BspTree<3> right = BspBuilder<3>::build(polygons), shared = BspBuilder<3>::build(polygons, {.straddlers = Straddlers::share});
     CHECK(right.fragments.size() > 3);
     CHECK(compare_pictures(right, camera, painted_picture(right, camera, 96, 72), rasteriser.buffer()).unexplained == 0);
@@ -324,7 +323,7 @@ TEST_CASE("points are inside, outside or on the boundary of closed meshes as exa
     for (const TestScene& mesh : meshes)
         for (const SplitterChoice choice : {SplitterChoice::weighted, SplitterChoice::free, SplitterChoice::first}) {
             const ExactOracle oracle = ExactOracle::build(mesh.triangles);
-            const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(mesh.triangles), {.splitter = choice});
+            const BspTree<3> tree = BspBuilder<3>::build(corners(mesh.triangles), {.splitter = choice});
             const Aabb box = box_of(mesh.triangles);
             Pcg32 random(3);
             std::uint64_t wrong = 0, undecided = 0;
@@ -356,7 +355,7 @@ TEST_CASE("a point on a plane of the tree but off all polygons is not on the bou
     std::vector<Triangle> boxes;
     scenes::add_box(boxes, {0, 0, 0}, {1, 1, 1});
     scenes::add_box(boxes, {2, 0, 0}, {3, 1, 2});
-    const BspTree<3> tree = BspBuilder<3>::build(scenes::polygons(boxes));
+    const BspTree<3> tree = BspBuilder<3>::build(corners(boxes));
     CHECK(tree.locate({1.5f, 1, 1}) == Cell::outside);       // on planes of both
     CHECK(tree.locate({1.5f, 0.5f, 1}) == Cell::outside);
     CHECK(tree.locate({2.5f, 0.5f, 1}) == Cell::inside);     // on the plane of the first one's lid
