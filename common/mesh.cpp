@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "common/file.hpp"
+#include "common/program/file.hpp"
 
 namespace space {
 namespace {

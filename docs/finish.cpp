@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 
 namespace space::docs {
 namespace {
@@ -45,7 +45,7 @@ std::string svg_element(const std::filesystem::path& file) {
     return text.substr(start);
 }
 
-/// What the steps of a drawing tell (common/svg.hpp), as a list: a reader without scripts has the last step's picture and all
+/// What the steps of a drawing tell (common/program/svg.hpp), as a list: a reader without scripts has the last step's picture and all
 /// of this. Nothing for a drawing without steps.
 std::string list_of_steps(std::string_view drawing) {
     constexpr std::string_view step_mark = "<g data-first=\"", open = "<desc>", close = "</desc>";

@@ -28,7 +28,7 @@ struct Claim {
     std::string how;            ///< "simulated past this machine's cores", or nothing
 };
 
-/// What a program answered; its fields are those of common/results.hpp.
+/// What a program answered; its fields are those of common/program/results.hpp.
 struct Answer {
     std::string claim, verdict, measured, scene, rule;
 };

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/options.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/options.hpp"
 #include "docs/finish.hpp"
 #include "docs/pages.hpp"
 #include "docs/search_text.hpp"

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <vector>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "docs/ledger.hpp"
 
 namespace space::docs {

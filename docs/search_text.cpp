@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "common/file.hpp"
+#include "common/program/file.hpp"
 
 namespace space::docs {
 namespace {

@@ -5,14 +5,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "chapters/ch01_naive_ray_tracing/figures.hpp"
-#include "chapters/ch01_naive_ray_tracing/measurements.hpp"
+#include "chapters/ch01_naive_ray_tracing/figures/figures.hpp"
+#include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/report.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/report.hpp"
 
-namespace space {
+namespace space::ch01 {
 namespace {
 
 struct ChapterOptions : Options {
@@ -124,8 +124,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace space
+}  // namespace space::ch01
 
 int main(int argc, char** argv) {
-    return space::run_program("ch01_naive_ray_tracing", space::run, argc, argv);
+    return space::run_program("ch01_naive_ray_tracing", space::ch01::run, argc, argv);
 }

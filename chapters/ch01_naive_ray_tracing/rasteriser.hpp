@@ -12,7 +12,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/coordinate_systems.hpp"
 #include "chapters/ch01_naive_ray_tracing/shading.hpp"
-#include "common/image.hpp"
+#include "common/program/image.hpp"
 
 namespace space {
 

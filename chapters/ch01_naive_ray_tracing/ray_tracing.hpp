@@ -8,9 +8,9 @@
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch01_naive_ray_tracing/shading.hpp"
-#include "common/image.hpp"
+#include "common/program/image.hpp"
 #include "common/parallel.hpp"
-#include "common/progress.hpp"
+#include "common/program/progress.hpp"
 
 namespace space {
 

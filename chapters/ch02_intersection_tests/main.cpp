@@ -3,14 +3,14 @@
 /// Draw  ch02_intersection_tests --figure fig_02_11 --out figures
 #include <fmt/format.h>
 
-#include "chapters/ch02_intersection_tests/figures.hpp"
-#include "chapters/ch02_intersection_tests/measurements.hpp"
-#include "chapters/ch02_intersection_tests/tables.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/report.hpp"
+#include "chapters/ch02_intersection_tests/figures/figures.hpp"
+#include "chapters/ch02_intersection_tests/measured/measurements.hpp"
+#include "chapters/ch02_intersection_tests/measured/tables.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/report.hpp"
 
-namespace space {
+namespace space::ch02 {
 namespace {
 
 int run(int argc, char** argv) {
@@ -41,8 +41,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace space
+}  // namespace space::ch02
 
 int main(int argc, char** argv) {
-    return space::run_program("ch02_intersection_tests", space::run, argc, argv);
+    return space::run_program("ch02_intersection_tests", space::ch02::run, argc, argv);
 }

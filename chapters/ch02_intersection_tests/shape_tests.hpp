@@ -3,7 +3,7 @@
 #pragma once
 
 #include "chapters/ch02_intersection_tests/boxes.hpp"
-#include "chapters/ch02_intersection_tests/named.hpp"
+#include "chapters/ch02_intersection_tests/named_test.hpp"
 #include "chapters/ch02_intersection_tests/spheres.hpp"
 
 namespace space {

@@ -5,7 +5,7 @@
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch02_intersection_tests/lichter.hpp"
 #include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
-#include "chapters/ch02_intersection_tests/named.hpp"
+#include "chapters/ch02_intersection_tests/named_test.hpp"
 #include "chapters/ch02_intersection_tests/plucker.hpp"
 #include "chapters/ch02_intersection_tests/unit_triangle.hpp"
 #include "chapters/ch02_intersection_tests/watertight.hpp"

@@ -10,15 +10,15 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
-#include "chapters/ch03_bsp_trees/figures.hpp"
-#include "chapters/ch03_bsp_trees/measurements.hpp"
+#include "chapters/ch03_bsp_trees/figures/figures.hpp"
+#include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/file.hpp"
-#include "common/report.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/file.hpp"
+#include "common/program/report.hpp"
 
-namespace space {
+namespace space::ch03 {
 namespace {
 
 constexpr const char* default_scene = "room:3";
@@ -137,8 +137,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace space
+}  // namespace space::ch03
 
 int main(int argc, char** argv) {
-    return space::run_program("ch03_bsp_trees", space::run, argc, argv);
+    return space::run_program("ch03_bsp_trees", space::ch03::run, argc, argv);
 }

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "chapters/ch12_comparison/lab_options.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "common/measure.hpp"
 #include "common/pcg32.hpp"
-#include "common/report.hpp"
-#include "common/results.hpp"
+#include "common/program/report.hpp"
+#include "common/program/results.hpp"
 #include "common/scene.hpp"
 
 namespace space {

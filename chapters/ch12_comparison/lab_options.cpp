@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 
 namespace space {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "chapters/ch12_comparison/structures.hpp"
 #include "common/camera.hpp"
-#include "common/options.hpp"
+#include "common/program/options.hpp"
 
 namespace space {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "chapters/ch12_comparison/lab.hpp"
-#include "common/error.hpp"
-#include "common/figure.hpp"
-#include "common/options.hpp"
-#include "common/report.hpp"
+#include "common/program/error.hpp"
+#include "common/program/figure.hpp"
+#include "common/program/options.hpp"
+#include "common/program/report.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "chapters/ch01_naive_ray_tracing/shading.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "common/pcg32.hpp"
 
 namespace space {

@@ -6,7 +6,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
-#include "chapters/ch03_bsp_trees/bsp_rays.hpp"
+#include "chapters/ch03_bsp_trees/bsp.hpp"
 
 namespace space {
 namespace {

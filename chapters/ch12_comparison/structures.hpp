@@ -14,7 +14,7 @@
 #include "chapters/ch12_comparison/rays.hpp"
 #include "common/accelerator.hpp"
 #include "common/parallel.hpp"
-#include "common/progress.hpp"
+#include "common/program/progress.hpp"
 
 namespace space {
 

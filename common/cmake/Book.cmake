@@ -56,76 +56,86 @@ function(book_short_name chapter result)
     set(${result} ${short} PARENT_SCOPE)
 endfunction()
 
-# book_link_chapters(target chapter ...)
-# Links what the chapters' headers leave to their libraries.
-function(book_link_chapters target)
-    foreach(chapter IN LISTS ARGN)
-        book_short_name(${chapter} short)
-        if(TARGET ${short}_library)
-            target_link_libraries(${target} PRIVATE ${short}_library)
+# The chapter whose CMakeLists.txt this is: "ch05_lazy_kd_trees", and "ch05".
+macro(book_this_chapter)
+    cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME chapter)
+    book_short_name(${chapter} short)
+endmacro()
+
+# add_chapter([BUILDS_ON ch04_kd_trees ...] [LINKS gmp ...])
+# In a chapter's CMakeLists.txt, first. The chapter's parts, each with the libraries after LINKS and those of the chapters
+# after BUILDS_ON:
+#   chNN_library   the subject: its *.cpp and those of folders of its own, but main.cpp (where it has any)
+#   chNN_measured  measured/*.cpp (where it has any)
+#   the program    main.cpp and figures/*.cpp
+#   chNN_benchmarks  measured/benchmarks.cpp
+# and a test that --small prints measured/expected_small.txt.
+function(add_chapter)
+    cmake_parse_arguments(ARG "" "" "BUILDS_ON;LINKS" ${ARGN})
+    book_this_chapter()
+    set(dir ${CMAKE_CURRENT_SOURCE_DIR})
+    set_property(GLOBAL APPEND PROPERTY BOOK_CHAPTERS ${chapter})
+    set_property(GLOBAL PROPERTY BOOK_${chapter}_BUILDS_ON ${ARG_BUILDS_ON})
+
+    file(GLOB subject CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/*/*.cpp)
+    list(FILTER subject EXCLUDE REGEX "/main\\.cpp$|/(figures|measured|exercises|solutions|near_misses|checks)/[^/]*$")
+    file(GLOB measured CONFIGURE_DEPENDS ${dir}/measured/*.cpp)
+    list(REMOVE_ITEM measured ${dir}/measured/benchmarks.cpp)
+    file(GLOB figures CONFIGURE_DEPENDS ${dir}/figures/*.cpp)
+
+    set(libraries book_common ${ARG_LINKS})
+    foreach(below IN LISTS ARG_BUILDS_ON)
+        book_short_name(${below} below)
+        if(TARGET ${below}_library)
+            list(APPEND libraries ${below}_library)
         endif()
     endforeach()
-endfunction()
-
-# add_chapter(ch05_lazy_kd_trees [BUILDS_ON ch04_kd_trees ...] [LIBRARY file.cpp ...] [LINKS gmp ...])
-# Builds the chapter's *.cpp (main.cpp, figures.cpp) into the program <name>, and tests that --small prints
-# expected_small.txt; its benchmarks.cpp becomes the program chNN_benchmarks. The files after LIBRARY, which later chapters
-# and tests need too, become the library chNN_library, with the libraries after LINKS. The chapter's own CMakeLists.txt
-# holds its exercises and figures.
-function(add_chapter name)
-    cmake_parse_arguments(ARG "" "" "BUILDS_ON;LIBRARY;LINKS" ${ARGN})
-    set(dir ${PROJECT_SOURCE_DIR}/chapters/${name})
-    book_short_name(${name} short)
-    file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)
-    list(REMOVE_ITEM sources ${dir}/benchmarks.cpp)
-    set_property(GLOBAL APPEND PROPERTY BOOK_CHAPTERS ${name})
-    set_property(GLOBAL PROPERTY BOOK_${name}_BUILDS_ON ${ARG_BUILDS_ON})
-    if(ARG_LIBRARY)
-        list(TRANSFORM ARG_LIBRARY PREPEND ${dir}/)
-        list(REMOVE_ITEM sources ${ARG_LIBRARY})
-        add_library(${short}_library STATIC ${ARG_LIBRARY})
-        target_link_libraries(${short}_library PUBLIC book_common ${ARG_LINKS} PRIVATE book_flags)
-        book_link_chapters(${short}_library ${ARG_BUILDS_ON})
+    if(subject)
+        add_library(${short}_library STATIC ${subject})
+        target_link_libraries(${short}_library PUBLIC ${libraries} PRIVATE book_flags)
+        set(libraries ${short}_library)
     endif()
+    if(measured)
+        add_library(${short}_measured STATIC ${measured})
+        target_link_libraries(${short}_measured PUBLIC ${libraries} PRIVATE book_flags)
+        set(libraries ${short}_measured)
+    endif()
+    set_property(GLOBAL PROPERTY BOOK_${chapter}_LIBRARIES ${libraries})
     if(NOT EXISTS ${dir}/main.cpp)
-        book_left_out("chapter ${name}" "it has no program yet")
+        book_left_out("chapter ${chapter}" "it has no program yet")
         return()
     endif()
-    add_executable(${name} ${sources})
-    target_link_libraries(${name} PRIVATE book_common book_flags)
-    book_link_chapters(${name} ${name} ${ARG_BUILDS_ON})
-    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-    add_dependencies(programs ${name})
-    book_built("chapter ${name}")
+    add_executable(${chapter} ${dir}/main.cpp ${figures})
+    target_link_libraries(${chapter} PRIVATE ${libraries} book_flags)
+    set_target_properties(${chapter} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+    add_dependencies(programs ${chapter})
+    book_built("chapter ${chapter}")
 
-    if(EXISTS ${dir}/benchmarks.cpp AND benchmark_FOUND)
-        add_executable(${short}_benchmarks EXCLUDE_FROM_ALL ${dir}/benchmarks.cpp)
-        target_link_libraries(${short}_benchmarks PRIVATE book_common book_flags benchmark::benchmark_main)
-        book_link_chapters(${short}_benchmarks ${name} ${ARG_BUILDS_ON})
+    if(EXISTS ${dir}/measured/benchmarks.cpp AND benchmark_FOUND)
+        add_executable(${short}_benchmarks EXCLUDE_FROM_ALL ${dir}/measured/benchmarks.cpp)
+        target_link_libraries(${short}_benchmarks PRIVATE ${libraries} book_flags benchmark::benchmark_main)
         set_target_properties(${short}_benchmarks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
         add_dependencies(benchmarks ${short}_benchmarks)
     endif()
-    if(EXISTS ${dir}/expected_small.txt)
-        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}>
-                 -D EXPECTED=${dir}/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${name}
+    if(EXISTS ${dir}/measured/expected_small.txt)
+        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}>
+                 -D EXPECTED=${dir}/measured/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${chapter}
                  -P ${PROJECT_SOURCE_DIR}/tests/house/compare_small.cmake)
         set_tests_properties(${short}.small PROPERTIES LABELS chapter TIMEOUT 300)
     endif()
-    if(EXISTS ${dir}/measurements.cpp)  # it writes results
-        add_test(NAME ${short}.out_is_checked_first COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}>
+    if(measured)  # it writes results
+        add_test(NAME ${short}.out_is_checked_first COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}>
                  -D OUT=${dir}/main.cpp/no_directory -P ${PROJECT_SOURCE_DIR}/tests/house/out_is_checked_first.cmake)
         set_tests_properties(${short}.out_is_checked_first PROPERTIES LABELS chapter TIMEOUT 60)
     endif()
-    if(EXISTS ${dir}/CMakeLists.txt)
-        add_subdirectory(${dir} ${PROJECT_BINARY_DIR}/chapters/${name})
-    endif()
 endfunction()
 
-# add_figure(ch01_naive_ray_tracing fig_01_03 drawing|rendering|chart "caption" [SLOW])
+# add_figure(fig_01_03 drawing|rendering|chart "caption" [SLOW])
 # Names a figure that the chapter's program makes with --figure. Drawings and renderings have the same bytes
 # everywhere: a test makes them again and compares them with those in figures/. Charts show measured times. What is SLOW
 # takes minutes: it is made by a full run or when it is asked for by its id, and is not tested.
-function(add_figure chapter id kind caption)
+function(add_figure id kind caption)
+    book_this_chapter()
     cmake_parse_arguments(ARG "SLOW" "" "" ${ARGN})
     string(TOLOWER "${ARG_SLOW}" slow)
     if(NOT kind MATCHES "^(drawing|rendering|chart)$")
@@ -140,7 +150,6 @@ function(add_figure chapter id kind caption)
     if(slow OR kind STREQUAL "chart")
         return()
     endif()
-    book_short_name(${chapter} short)
     set(suffix svg)
     if(kind STREQUAL "rendering")
         set(suffix png)
@@ -168,13 +177,14 @@ else()
     set(BOOK_CATCH_ARGUMENTS)
 endif()
 
-# add_exercise(ch01_naive_ray_tracing ex01_erased_hit)
+# add_exercise(ex01_erased_hit)
 # Compiles checks/<name>.cpp three times: against the reader's exercises/<name>.hpp, the solution and the near miss.
 # Tests: the untouched stub fails by its checks, the solution passes, the near miss is caught. Sanitizers see the solution
 # only: minutes of compiling less.
-function(add_exercise chapter name)
-    book_short_name(${chapter} short)
-    set(dir ${PROJECT_SOURCE_DIR}/chapters/${chapter})
+function(add_exercise name)
+    book_this_chapter()
+    set(dir ${CMAKE_CURRENT_SOURCE_DIR})
+    get_property(libraries GLOBAL PROPERTY BOOK_${chapter}_LIBRARIES)
     set_property(GLOBAL APPEND PROPERTY BOOK_EXERCISES "${chapter}/${name}")
     if(NOT TARGET book_catch_main)
         return()
@@ -194,8 +204,7 @@ function(add_exercise chapter name)
         endif()
         add_executable(${target} ${dir}/checks/${name}.cpp)
         target_include_directories(${target} PRIVATE ${dir}/${folder})
-        target_link_libraries(${target} PRIVATE book_catch_main book_common book_flags)
-        book_link_chapters(${target} ${chapter})
+        target_link_libraries(${target} PRIVATE book_catch_main ${libraries} book_flags)
         set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/exercises)
         add_test(NAME ${target} COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${target}> -D VARIANT=${variant}
                  -D "CATCH_ARGUMENTS=${BOOK_CATCH_ARGUMENTS}" -D FILE=${dir}/${folder}/${name}.hpp

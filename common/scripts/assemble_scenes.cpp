@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 #include "common/mesh.hpp"
-#include "common/scene_shapes.hpp"
+#include "common/scenes/shapes.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "chapters/ch03_bsp_trees/bsp_rays.hpp"
+#include "chapters/ch03_bsp_trees/bsp.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,9 +1,9 @@
 // Where BSP trees fail: of each failure a test in which the plain method fails, by how much, and the cure holds.
 #include <fmt/format.h>
 
-#include "chapters/ch03_bsp_trees/bsp_rays.hpp"
-#include "common/error.hpp"
-#include "common/report.hpp"
+#include "chapters/ch03_bsp_trees/bsp.hpp"
+#include "common/program/error.hpp"
+#include "common/program/report.hpp"
 #include "tests/ch03/gallery.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "chapters/ch03_bsp_trees/bsp_rays.hpp"
-#include "common/error.hpp"
+#include "chapters/ch03_bsp_trees/bsp.hpp"
+#include "common/program/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "chapters/ch03_bsp_trees/bsp_build.hpp"
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "tests/catch.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 

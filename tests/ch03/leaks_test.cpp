@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "chapters/ch03_bsp_trees/tiling.hpp"
-#include "common/report.hpp"
+#include "common/program/report.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/gallery.hpp"
 #include "tests/ch03/tiling_scenes.hpp"

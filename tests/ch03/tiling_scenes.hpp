@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "chapters/ch03_bsp_trees/bsp_build.hpp"
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "common/mesh.hpp"
-#include "common/scene_shapes.hpp"
+#include "common/scenes/shapes.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 
 namespace space {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "chapters/ch01_naive_ray_tracing/coverage.hpp"
-#include "common/report.hpp"
+#include "common/program/report.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/cgal_fragments.hpp"

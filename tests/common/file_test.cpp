@@ -1,11 +1,11 @@
-#include "common/file.hpp"
+#include "common/program/file.hpp"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <csignal>
 
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 

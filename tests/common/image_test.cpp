@@ -1,9 +1,9 @@
-#include "common/image.hpp"
+#include "common/program/image.hpp"
 
 #include <limits>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 

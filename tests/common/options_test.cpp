@@ -1,8 +1,8 @@
-#include "common/options.hpp"
+#include "common/program/options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 

@@ -1,10 +1,10 @@
 // What every main() and every list of figures relies on: errors, figures, progress.
 #include <new>
 
-#include "common/error.hpp"
-#include "common/figure.hpp"
+#include "common/program/error.hpp"
+#include "common/program/figure.hpp"
 #include "common/parallel.hpp"
-#include "common/progress.hpp"
+#include "common/program/progress.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 

@@ -1,4 +1,4 @@
-#include "common/report.hpp"
+#include "common/program/report.hpp"
 
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"

@@ -1,10 +1,10 @@
-#include "common/results.hpp"
+#include "common/program/results.hpp"
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 

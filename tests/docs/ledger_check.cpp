@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 #include "docs/ledger.hpp"
 
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/results.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/results.hpp"
 #include "tests/catch.hpp"
 
 using namespace space;

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "docs/finish.hpp"
 #include "docs/search_text.hpp"
 #include "tests/catch.hpp"

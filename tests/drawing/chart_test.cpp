@@ -1,4 +1,4 @@
-#include "common/chart.hpp"
+#include "common/program/chart.hpp"
 
 #include <unistd.h>
 
@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/svg.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/svg.hpp"
 #include "tests/catch.hpp"
 
 using namespace space;

@@ -1,10 +1,10 @@
-#include "common/svg.hpp"
+#include "common/program/svg.hpp"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "common/image.hpp"
+#include "common/program/image.hpp"
 #include "tests/catch.hpp"
 
 using namespace space;

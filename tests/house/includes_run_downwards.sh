@@ -2,6 +2,8 @@
 # includes_run_downwards.sh ROOT CHAPTERS: proves that in the tree ROOT
 # - a chapter includes common/, itself and the chapters that it builds on (directly or through another), which are
 #   earlier ones; CHAPTERS has a line for each chapter: its name, then those named by BUILDS_ON;
+# - within a chapter arrows run main -> figures -> measured -> subject: the subject includes neither figures/ nor
+#   measured/, measured/ includes no figures/, and those of another chapter are closed;
 # - common/ includes no chapter; neither includes tests/ or docs/ (checks of exercises may include tests/);
 # - our headers are included by their path from the root, but those beside the including file in docs/ and tests/;
 # - CGAL is used by the tests and by the one reader of mesh files.
@@ -19,6 +21,9 @@ find common chapters tests docs -name '*.[hc]pp' -print0 2>/dev/null | sort -z |
             for (i = 1; i <= count; ++i) if (reaches(names[i], to)) return 1
             return 0
         }
+        # The rooms of a chapter, from the subject up.
+        function rank(room) { return room == "measured" ? 1 : room == "figures" ? 2 : room == "main.cpp" ? 3 : 0 }
+        function name_of(room) { return rank(room) == 0 ? "the subject" : room }
         BEGIN {
             while ((getline line < chapters) > 0) {
                 name = line; sub(/ .*/, "", name)
@@ -30,8 +35,8 @@ find common chapters tests docs -name '*.[hc]pp' -print0 2>/dev/null | sort -z |
             }
         }
         FNR == 1 { split(FILENAME, own, "/") }
-        /^[ \t]*#[ \t]*include[ \t]*<CGAL\// && own[1] != "tests" && FILENAME != "common/mesh_reader.cpp" {
-            fault("CGAL is for tests/ and common/mesh_reader.cpp")
+        /^[ \t]*#[ \t]*include[ \t]*<CGAL\// && own[1] != "tests" && FILENAME !~ /^common\/mesh_reader\// {
+            fault("CGAL is for tests/ and common/mesh_reader/")
         }
         /^[ \t]*#[ \t]*include[ \t]*"/ {
             path = $0; sub(/^[^"]*"/, "", path); sub(/".*/, "", path)
@@ -43,6 +48,10 @@ find common chapters tests docs -name '*.[hc]pp' -print0 2>/dev/null | sort -z |
                 if (own[1] == "common") fault("common/ includes a chapter: " path)
                 else if (!(own[2] in builds_on)) fault("the chapter has no add_chapter line")
                 else if (!reaches(own[2], part[2])) fault(own[2] " does not build on " part[2])
+                else if (rank(part[3]) == 0) next
+                else if (own[2] != part[2]) fault("closed to other chapters: " path)
+                else if (own[3] == "checks" && part[3] == "measured") next
+                else if (rank(own[3]) < rank(part[3])) fault(name_of(own[3]) " includes " part[3] "/: " path)
             } else if (part[1] == "tests" && own[3] == "checks") next
             else if (path ~ /^ex[0-9][0-9]_[a-z0-9_]*\.hpp$/ && own[3] == "checks") next
             else fault("not a path from the root into common/ or a chapter: " path)

@@ -1,7 +1,7 @@
 // The lab with a structure that is broken on purpose: --check must find it.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch12_comparison/lab.hpp"
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 
 namespace {
 

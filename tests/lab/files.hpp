@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "chapters/ch12_comparison/rays.hpp"
-#include "common/file.hpp"
+#include "common/program/file.hpp"
 
 namespace space {
 

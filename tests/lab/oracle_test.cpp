@@ -7,8 +7,8 @@
 
 #include "chapters/ch12_comparison/lab.hpp"
 #include "common/mesh.hpp"
-#include "common/progress.hpp"
-#include "common/report.hpp"
+#include "common/program/progress.hpp"
+#include "common/program/report.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/lab/files.hpp"

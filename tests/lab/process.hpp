@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/file.hpp"
+#include "common/program/file.hpp"
 
 namespace space {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/report.hpp"
+#include "common/program/report.hpp"
 #include "tests/oracle/moller_trumbore_bound.hpp"
 
 namespace space {

@@ -9,7 +9,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/pcg32.hpp"
-#include "common/report.hpp"
+#include "common/program/report.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/compare.hpp"
 #include "tests/oracle/moller_trumbore_bound.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/error.hpp"
+#include "common/program/error.hpp"
 #include "common/mesh.hpp"
 
 namespace space::test {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdlib>
 
-#include "common/scene_shapes.hpp"
+#include "common/scenes/shapes.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/files.hpp"
 

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/error.hpp"
-#include "common/scene_shapes.hpp"
+#include "common/program/error.hpp"
+#include "common/scenes/shapes.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/files.hpp"
 

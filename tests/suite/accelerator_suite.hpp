@@ -27,7 +27,7 @@
 #include "common/accelerator.hpp"
 #include "common/measure.hpp"
 #include "common/parallel.hpp"
-#include "common/report.hpp"
+#include "common/program/report.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/compare.hpp"
 #include "tests/suite/adversarial_scenes.hpp"

@@ -1,6 +1,6 @@
 #include "ex05_conservative_box.hpp"
 
-#include "chapters/ch02_intersection_tests/exact_deciders.hpp"
+#include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
 
@@ -32,7 +32,7 @@ TEST_CASE("no ray towards a corner that hits the box in exact arithmetic is miss
         // Of any length: where the corner is at t = 1 the roundings nearly cancel.
         const float stretch = random.below(2) ? 1.0f : random.uniform(0.5f, 1.5f);
         const Ray ray{origin, stretch * (corner - origin)};
-        if (!exactly_hits(ray, box)) continue;
+        if (!space::ch02::exactly_hits(ray, box)) continue;
         ++hits;
         missed += !may_hit_box(ray, box);
     }

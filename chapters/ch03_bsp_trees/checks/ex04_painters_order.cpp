@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "chapters/ch03_bsp_trees/bsp_build.hpp"
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "common/pcg32.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"

@@ -1,0 +1,13 @@
+/// @file
+/// The figures of chapter 2: the chapter's own code draws them.
+#pragma once
+
+#include <span>
+
+#include "common/program/figure.hpp"
+
+namespace space::ch02 {
+
+std::span<const Figure> chapter02_figures();
+
+}  // namespace space::ch02

@@ -1,0 +1,115 @@
+#include "chapters/ch02_intersection_tests/measured/measurements.hpp"
+
+#include "chapters/ch02_intersection_tests/triangle_tests.hpp"
+#include "common/program/progress.hpp"
+#include "common/scene.hpp"
+
+namespace space::ch02 {
+
+Amounts amounts(const Options& options) {
+    if (options.small)
+        return {.pairs = 4096, .leak_rays = 4096, .root_stride = 1021, .root_samples = 64, .boxes = 20'000, .spheres = 4096,
+                .bounces = 1000, .rounds = 1};
+    if (options.quick)
+        return {.pairs = 100'000, .leak_rays = 100'000, .root_stride = 17, .root_samples = 1000, .boxes = 1'000'000,
+                .spheres = 50'000, .bounces = 100'000, .rounds = 15};
+    return {.pairs = 1'000'000, .leak_rays = 1'000'000, .root_stride = 1, .root_samples = 20'000, .boxes = 10'000'000,
+            .spheres = 200'000, .bounces = 1'000'000, .rounds = 51};
+}
+
+void count_triangles(const Options& options, Measurements& measured) {
+    Progress progress("triangles: wrong decisions", triangle_inputs().size());
+    for (const TriangleInput& input : triangle_inputs()) {
+        measured.triangles.push_back(triangle_accuracy(input, amounts(options).pairs, options.seed, options.threads));
+        progress.step();
+    }
+}
+
+void count_leaks(const Options& options, Measurements& measured) {
+    const std::vector<int> shifts{0, 3, 6};
+    Progress progress("triangles: leaks", shifts.size());
+    for (const int shift : shifts) {
+        measured.leaks.push_back(closed_mesh_leaks(3, shift, amounts(options).leak_rays, options.seed, options.threads));
+        progress.step();
+    }
+}
+
+void count_roots(const Options& options, Measurements& measured) {
+    Progress progress("square roots", root_forms().size());
+    for (const RootForm& form : root_forms()) {
+        measured.roots.push_back(root_accuracy(form, amounts(options).root_stride, amounts(options).root_samples));
+        progress.step();
+    }
+}
+
+void count_boxes(const Options& options, Measurements& measured) {
+    measured.lattice = lattice_box_accuracy();
+    measured.boxes = box_accuracy(amounts(options).boxes, options.seed, options.threads);
+    measured.from_inside = rays_from_inside(amounts(options).spheres, options.seed);
+    measured.oriented = oriented_box_accuracy(amounts(options).spheres, options.seed);
+}
+
+void count_spheres(const Options& options, Measurements& measured) {
+    for (const double distance : {3.0, 300.0, 3e3, 3e4, 3e6})
+        measured.spheres.push_back(sphere_accuracy(distance, amounts(options).spheres, options.seed, options.threads));
+    measured.behind = spheres_behind(amounts(options).spheres, options.seed);
+}
+
+void count_bounces(const Options& options, Measurements& measured) {
+    std::size_t filtered_exact = 0;
+    for_each_named(triangle_tests, [&](std::size_t i, const auto& named) {
+        if (named.name == "filtered-exact") filtered_exact = i;
+    });
+    const std::vector<double> places{1.0, 1e3, 1e5};
+    Progress progress("origins of secondary rays", places.size() * origin_ways().size());
+    for (const double place : places)
+        for (const OriginWay& way : origin_ways()) {
+            measured.bounces.push_back(
+                {way.name, place,
+                 bounces(way, filtered_exact, place, amounts(options).bounces, options.seed, options.threads)});
+            progress.step();
+        }
+}
+
+void time_triangles(const Options& options, Measurements& measured) {
+    const std::vector<std::string> scenes{"soup:20000", "room", "sphereflake:3", "mount", "boxes"};
+    const int rounds = amounts(options).rounds;
+    Progress progress("timing triangles", scenes.size() + 1);
+    const auto time_leaves = [&](const Leaves& leaves) {
+        measured.triangle_times.push_back(
+            {leaves.scene, time_triangle_tests(leaves, rounds), time_lichter_tests(leaves, rounds)});
+        progress.step();
+    };
+    time_leaves(random_leaves(64, options.seed));
+    for (const std::string& name : scenes) {
+        const Scene scene = make_scene(options.small ? name.substr(0, name.find(':')) : name, options.seed, options.small);
+        time_leaves(make_leaves(name, scene.mesh.triangles(), 64, options.seed));
+    }
+}
+
+void time_patterns(const Options& options, Measurements& measured) {
+    const int rounds = amounts(options).rounds;
+    for (const Pattern pattern : patterns)
+        measured.pattern_times.push_back({pattern, time_box_tests(pattern, rounds), time_orders(pattern, rounds)});
+}
+
+void time_others(const Options& options, Measurements& measured) {
+    const int rounds = amounts(options).rounds;
+    measured.root_times = time_roots(rounds);
+    measured.sphere_times = time_sphere_tests(rounds);
+    measured.plane_times = time_planes(rounds);
+}
+
+Measurements measure(const Options& options) {
+    Measurements measured;
+    for (const auto part : {count_triangles, count_leaks, count_roots, count_boxes, count_spheres, count_bounces, time_triangles,
+                            time_patterns, time_others})
+        part(options, measured);
+    return measured;
+}
+
+double relative_time(const SceneTimes& scene, std::string_view test) {
+    return ns_of(scene.tests, test) / ns_of(scene.tests, "moller-trumbore-float");
+}
+
+}  // namespace space::ch02

@@ -1,0 +1,90 @@
+/// @file
+/// Everything that chapter 2 counts and times, in one value; its charts, and the answers to the sources' claims.
+#pragma once
+
+#include <vector>
+
+#include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
+#include "chapters/ch02_intersection_tests/measured/timing.hpp"
+#include "common/program/chart.hpp"
+#include "common/program/options.hpp"
+#include "common/program/results.hpp"
+
+namespace space::ch02 {
+
+/// How many inputs are counted, and how many rounds are timed.
+struct Amounts {
+    std::uint64_t pairs;      ///< rays with a triangle each, per input class
+    std::uint64_t leak_rays;  ///< per closed mesh
+    std::uint32_t root_stride, root_samples;
+    std::uint64_t boxes, spheres;  ///< rays with a box or a sphere each, spheres per distance
+    std::uint64_t bounces;         ///< per way and place
+    int rounds;
+};
+/// For tests (--small), for a look (--quick), for the book.
+Amounts amounts(const Options& options);
+
+/// The triangle tests on one scene.
+struct SceneTimes {
+    std::string scene;
+    std::vector<Timed> tests;    ///< in the order of triangle_tests
+    std::vector<Timed> lichter;  ///< "first", "fewer roots", "early exit", "improved"
+};
+
+/// The box tests, and the orders of one of them, on inputs of one predictability.
+struct PatternTimes {
+    Pattern pattern;
+    std::vector<Timed> boxes;   ///< in the order of box_tests
+    std::vector<Timed> orders;  ///< "cheap first", "expensive first", "decide last"
+};
+
+/// What one rule for origins gives at one distance from the world's origin.
+struct PlacedBounces {
+    std::string_view way;
+    double place;
+    Bounces bounces;
+};
+
+/// All that a run counts and times.
+struct Measurements {
+    std::vector<TriangleAccuracy> triangles;  ///< in the order of triangle_inputs()
+    std::vector<Leaks> leaks;
+    std::vector<RootAccuracy> roots;  ///< in the order of root_forms()
+    BoxAccuracy lattice, boxes;
+    RaysFromInside from_inside;
+    OrientedBoxes oriented;
+    std::vector<SphereAccuracy> spheres;
+    SpheresBehind behind;
+    std::vector<PlacedBounces> bounces;
+
+    std::vector<SceneTimes> triangle_times;  ///< of random triangles and five scenes
+    std::vector<TimedRoot> root_times;
+    std::vector<PatternTimes> pattern_times;
+    std::vector<Timed> sphere_times, plane_times;
+};
+
+/// The parts, each of which fills in its own members. Counts do not depend on the number of threads; times are taken on
+/// one.
+void count_triangles(const Options& options, Measurements& measured);
+void count_leaks(const Options& options, Measurements& measured);
+void count_roots(const Options& options, Measurements& measured);
+void count_boxes(const Options& options, Measurements& measured);
+void count_spheres(const Options& options, Measurements& measured);
+void count_bounces(const Options& options, Measurements& measured);
+void time_triangles(const Options& options, Measurements& measured);
+void time_patterns(const Options& options, Measurements& measured);  ///< boxes, and orders of a triangle test
+void time_others(const Options& options, Measurements& measured);    ///< roots, spheres, planes
+Measurements measure(const Options& options);
+
+/// A test's time as a multiple of MollerTrumboreFloat's on the same scene.
+double relative_time(const SceneTimes& scene, std::string_view test);
+
+Chart triangle_chart(const Measurements& measured);  ///< fig_02_11: ns per test against leaks and wrong decisions
+Chart root_chart(const Measurements& measured);      ///< fig_02_12: ns per root against the worst error
+Chart box_chart(const Measurements& measured);       ///< fig_02_13: ns per test against boxes missed
+Chart sphere_chart(const Measurements& measured);    ///< fig_02_14: wrong decisions against the distance, and ns
+
+/// The answers to L1 L2 L3 L4 L5 L8 L9 O4 O5 O12 O13 H15.
+std::vector<ClaimAnswer> answer_claims(const Measurements& measured);
+
+}  // namespace space::ch02

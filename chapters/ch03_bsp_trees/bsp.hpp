@@ -1,0 +1,163 @@
+/// @file
+/// Rays in a BSP tree: front to back, both subtrees only where the ray crosses the plane.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
+#include "common/accelerator.hpp"
+
+namespace space {
+
+/// Where a ray crosses a plane: t lies in [earliest, latest]; anywhere if it runs (nearly) along the plane.
+struct PlaneCrossing {
+    bool starts_in_front;
+    double earliest, latest;
+};
+
+// [cross_plane]
+/// Height over the plane and slope along the ray are known to within errors like side_filter's;
+/// t = -height / slope to within (height_error + |t| slope_error) / (|slope| - slope_error). Where
+/// the slope's sign is not known, the ray may cross anywhere, unless its whole way [enter, leave]
+/// stays clear of the plane.
+template <int D>
+PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, double enter, double leave) {
+    constexpr double roundings = 16.0 * 0x1p-53;
+    const DoublePoint<D> from = DoublePoint<D>(ray.origin) - DoublePoint<D>(plane.through[0]);
+    const DoublePoint<D> direction{ray.direction};
+    const double height = glm::dot(plane.normal, from), slope = glm::dot(plane.normal, direction);
+    const double height_error = roundings * plane.size * SplitPlane<D>::one_norm(from);
+    const double slope_error = roundings * plane.size * SplitPlane<D>::one_norm(direction);
+    if (std::abs(slope) > 2.0 * slope_error) {
+        const double t = -height / slope;
+        const double error =
+            (height_error + std::abs(t) * slope_error) / (std::abs(slope) - slope_error);
+        return {slope < 0.0, t - error, t + error};
+    }
+    const double reach =
+        std::max(std::abs(enter), std::abs(leave)) * (std::abs(slope) + slope_error);
+    if (std::abs(height) > height_error + reach) return {height > 0.0, infinity, infinity};  // never
+    return {height > 0.0, -infinity, infinity};
+}
+// [cross_plane]
+
+// [front_to_back]
+/// Walks the cells along the ray, from its origin on, and calls cross(node) for every node whose
+/// plane the ray crosses within the node's cell: after all that lies before the plane, before all
+/// that lies behind it. cross returns the t beyond which nothing matters any more (NaN: nothing at
+/// all). The stack is our own: a tree may be deeper than the machine's stack.
+template <int D, class Counts, class Cross>
+void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& counts, const Cross& cross) {
+    if (!is_valid(ray) || tree.nodes.empty()) return;
+    struct Task {
+        std::int32_t crossed;  ///< the node whose plane comes next; none before the first
+        std::int32_t cell;     ///< the child beyond it
+        double enter, leave;   ///< the part of the ray in that child, never too short
+    };
+    // What counts is t rounded to float: a hit may lie half a place outside the interval.
+    std::vector<Task> tasks{{BspTree<D>::none, 0, std::nextafter(ray.tmin, -infinity),
+                             std::nextafter(ray.tmax, infinity)}};
+    double limit = infinity;
+    while (!tasks.empty()) {
+        auto [crossed, index, enter, leave] = tasks.back();
+        tasks.pop_back();
+        if (!(enter <= limit)) continue;
+        if (crossed != BspTree<D>::none) limit = cross(tree.nodes[static_cast<std::size_t>(crossed)]);
+        while (index != BspTree<D>::none) {
+            const auto& node = tree.nodes[static_cast<std::size_t>(index)];
+            counts.visit_node();
+            const PlaneCrossing crossing = cross_plane(ray, tree.planes[node.plane], enter, leave);
+            const std::int32_t near = crossing.starts_in_front ? node.front : node.back;
+            const std::int32_t far = crossing.starts_in_front ? node.back : node.front;
+            if (crossing.latest < enter) {
+                index = far;
+            } else if (crossing.earliest > leave) {
+                index = near;
+            } else {
+                tasks.push_back({index, far, std::max(enter, crossing.earliest), leave});
+                index = near;
+                leave = std::min(leave, crossing.latest);
+            }
+        }
+    }
+}
+// [front_to_back]
+
+/// The accelerator. A fragment stands for its original triangle, which is the one that is tested: fragments give the order
+/// only, and their rounded corners never decide a hit.
+template <TriangleTest Test = MollerTrumbore>
+class Bsp {
+  public:
+    using Config = BspConfig;
+
+    template <class Observer = NoBspObserver>
+    static Bsp build(std::span<const Triangle> triangles, const Config& config = {}, Observer&& observer = {}) {
+        Bsp bsp;
+        bsp.tree_ = BspBuilder<3, Observer>::build(corners(triangles), config, std::forward<Observer>(observer));
+        return bsp;
+    }
+    const BspTree<3>& tree() const { return tree_; }
+
+    template <class Counts>
+    std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
+        std::optional<Hit> nearest;
+        traverse(ray, counts, [&](const Hit& hit) {
+            if (!nearest || nearer(hit, *nearest)) nearest = hit;
+            // A hit half a place farther may round to the same t and have the smaller index.
+            return double{std::nextafter(nearest->t, infinity)};
+        });
+        return nearest;
+    }
+
+    template <class Counts>
+    bool any_hit(const Ray& ray, Counts& counts) const {
+        bool found = false;
+        traverse(ray, counts, [&](const Hit&) {
+            found = true;
+            return std::nan("");  // nothing is nearer than this, and nothing matters any more
+        });
+        return found;
+    }
+
+    TreeShape shape() const {
+        std::size_t bytes = sizeof *this + tree_.nodes.size() * sizeof(BspTree<3>::Node) +
+                            tree_.planes.size() * sizeof(SplitPlane<3>) + tree_.polygons.size() * sizeof(Corners<3>);
+        std::size_t leaves = 0;
+        for (const Fragment<3>& fragment : tree_.fragments)
+            bytes += sizeof fragment + fragment.corners.size() * sizeof(Corner<3>);
+        for (const auto& node : tree_.nodes) leaves += node.front == BspTree<3>::none && node.back == BspTree<3>::none;
+        return {.nodes = tree_.nodes.size(), .leaves = leaves, .depth = tree_.depth(), .references = tree_.fragments.size(), .bytes = bytes};
+    }
+
+  private:
+    // [traverse]
+    /// Calls found(hit) for the hits of every triangle that has a fragment where the ray crosses its
+    /// plane; found returns the t beyond which nothing matters any more.
+    template <class Counts, class Found>
+    void traverse(const Ray& ray, Counts& counts, const Found& found) const {
+        double limit = infinity;
+        front_to_back(tree_, ray, counts, [&](const BspTree<3>::Node& node) {
+            for (std::uint32_t i = 0; i < node.count; ++i) {
+                const std::uint32_t polygon = tree_.fragments[node.first + i].polygon;
+                const Corners<3>& p = tree_.polygons[polygon];
+                counts.test_triangle();
+                if (auto hit = Test::intersect(ray, Triangle{p[0], p[1], p[2]})) {
+                    hit->triangle = polygon;
+                    limit = found(*hit);
+                }
+            }
+            return limit;
+        });
+    }
+    // [traverse]
+
+    BspTree<3> tree_;
+};
+
+}  // namespace space

@@ -1,0 +1,13 @@
+/// @file
+/// The figures of chapter 3: the chapter's own code draws them.
+#pragma once
+
+#include <span>
+
+#include "common/program/figure.hpp"
+
+namespace space::ch03 {
+
+std::span<const Figure> chapter03_figures();
+
+}  // namespace space::ch03

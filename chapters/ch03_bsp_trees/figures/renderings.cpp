@@ -1,0 +1,229 @@
+// A closed mesh seen by rays that hit fragments in place of the triangles that those were cut from.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/painter.hpp"
+#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+#include "chapters/ch03_bsp_trees/tiling.hpp"
+#include "common/camera.hpp"
+#include "common/program/image.hpp"
+#include "common/pcg32.hpp"
+#include "common/scenes/shapes.hpp"
+
+namespace space::ch03 {
+namespace {
+
+/// The palette's colours as a picture's pixels: linear.
+constexpr Color sky{0.093f, 0.456f, 0.815f}, yellow{0.871f, 0.768f, 0.054f},
+    vermillion{0.665f, 0.112f, 0.0f};
+
+/// The mesh's tree in one grade, and its fragments.
+struct Graded {
+    Grade grade;
+    const char* name;
+    BspTree<3> tree;
+    std::optional<FragmentRays> fragments = {};
+};
+
+/// A place on the common edge of two triangles where one of them, or both, have been cut.
+struct Spot {
+    std::array<std::uint32_t, 2> triangles;
+    std::uint32_t cut;  ///< the one of them whose fragment has a corner here
+    Double3 at;
+};
+
+/// What the rays of a small window about a spot see.
+struct View {
+    Image image{0, 0};
+    std::uint64_t leaks = 0;
+};
+
+class Microscope {
+  public:
+    Microscope(const std::vector<Triangle>& triangles, const Spot& spot)
+        : triangles_(triangles), spot_(spot) {
+        const auto normal = [&](std::uint32_t i) {
+            return glm::normalize(SplitPlane<3>(corners(triangles[i])).normal);
+        };
+        // From this near, directions in floats tell points apart that are closer than floats on the
+        // surface.
+        constexpr double distance = 0.002;
+        camera_.eye = Point3(spot.at + distance * glm::normalize(normal(spot.triangles[0]) +
+                                                                 normal(spot.triangles[1])));
+        camera_.target = Point3(spot.at);
+        camera_.field_of_view =
+            static_cast<float>(2.0 * std::atan(0.5 * window / distance) * 180.0 / std::numbers::pi);
+        // Upwards along the edge.
+        for (int i = 0; i < 3; ++i) {
+            const auto& first = corners(triangles[spot.triangles[0]]);
+            const auto& second = corners(triangles[spot.triangles[1]]);
+            if (std::ranges::find(second, first[i]) != second.end() &&
+                std::ranges::find(second, first[(i + 1) % 3]) != second.end())
+                camera_.up = glm::normalize(first[(i + 1) % 3] - first[i]);
+        }
+    }
+    static constexpr double window = 0x1p-23;  // a float next to 0.25 is 2^-25 away
+
+    View look(const FragmentRays& fragments, int side) const {
+        View view{.image = Image(side, side)};
+        const CameraFrame frame(camera_);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const Ray ray = camera_ray(camera_, frame, x + 0.5, y + 0.5, side, side);
+                const bool one = fragments.meets(ray, spot_.triangles[0]),
+                           other = fragments.meets(ray, spot_.triangles[1]);
+                view.leaks += !one && !other;
+                view.image.at(x, y) = one ? sky : other ? yellow : vermillion;
+            }
+        return view;
+    }
+
+  private:
+    const std::vector<Triangle>& triangles_;
+    Spot spot_;
+    Camera camera_;
+};
+
+/// The corners of fragments that lie on the common edge of two triangles.
+std::vector<Spot> spots(const BspTree<3>& tree) {
+    std::map<EdgeKey, std::vector<std::uint32_t>> owners;
+    for (std::uint32_t i = 0; i < tree.polygons.size(); ++i)
+        for (int edge = 0; edge < 3; ++edge) owners[edge_key(tree.polygons[i], edge)].push_back(i);
+    std::vector<Spot> found;
+    for (const Fragment<3>& fragment : tree.fragments)
+        for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
+            const Carrier before =
+                fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()]
+                    .carrier;
+            if (!before.is_original() || fragment.corners[i].carrier.is_original()) continue;
+            const auto& both = owners[edge_key(tree.polygons[fragment.polygon], before.edge())];
+            if (both.size() == 2)
+                found.push_back({{both[0], both[1]}, fragment.polygon, fragment.corners[i].at});
+        }
+    return found;
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------------
+// 3.5 Fragments in place of triangles
+
+void draw_fragments_hit(const Options& options) {
+    const std::vector<Triangle> triangles = teapot(5).triangles();
+    const std::vector<Corners<3>> polygons = corners(triangles);
+    std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
+                                  {Grade::ordered_float, "canonical order", {}},
+                                  {Grade::ordered_double, "in double", {}},
+                                  {Grade::exact, "exact", {}}}};
+    for (Graded& g : graded) {
+        g.tree = BspBuilder<3>::build(polygons, {.grade = g.grade});
+        g.fragments.emplace(g.tree, g.grade);
+    }
+
+    // Where the leak is widest: one that canonical order closes, and one that it does not.
+    std::array<Spot, 2> shown;
+    std::array<std::uint64_t, 2> most{0, 0};
+    const std::vector<Spot> in_order = spots(graded[1].tree);
+    const auto both_cut = [&](const Spot& spot) {
+        const auto here = [&](const Spot& other) {
+            return other.triangles == spot.triangles && other.cut != spot.cut &&
+                   glm::distance(other.at, spot.at) < Microscope::window;
+        };
+        return std::ranges::any_of(in_order, here);
+    };
+    for (const Spot& spot : spots(graded[0].tree)) {
+        constexpr int coarse = 24;
+        const Microscope microscope(triangles, spot);
+        const auto leaks_in = [&](std::size_t grade) {
+            return microscope.look(*graded[grade].fragments, coarse).leaks;
+        };
+        const std::uint64_t leaks = leaks_in(0);
+        if (leaks <= std::min(most[0], most[1])) continue;
+        const std::uint64_t ordered = leaks_in(1), still = std::min(leaks, ordered);
+        const bool closed = ordered == 0 && leaks > most[0] && both_cut(spot),
+                   open = still > most[1] && !both_cut(spot);
+        if ((!closed && !open) || leaks_in(3) > 0)
+            continue;  // at a vertex, where other triangles are about
+        if (closed) most[0] = leaks, shown[0] = spot;
+        if (open) most[1] = still, shown[1] = spot;
+    }
+
+    constexpr int side = 150, gap = 8;
+    Svg svg("fig_03_05",
+            "Two places on a teapot's edges, seen by rays that hit fragments in place of "
+            "triangles, for four grades; leaks are marked",
+            4 * side + 5 * gap, 524);
+    constexpr std::array titles{"an edge at which both triangles are cut",
+                                "an edge at which only one is cut: a T-junction"};
+    for (std::size_t row = 0; row < shown.size(); ++row) {
+        const Microscope microscope(triangles, shown[row]);
+        svg.text({320, static_cast<float>(22 + 262 * row)}, titles[row], {.bold = true});
+        for (std::size_t i = 0; i < graded.size(); ++i) {
+            const View view = microscope.look(*graded[i].fragments, side);
+            const auto left = static_cast<float>(gap + static_cast<int>(i) * (side + gap)),
+                       top = static_cast<float>(38 + 262 * row);
+            svg.picture({left, top}, {side, side}, view.image,
+                        fmt::format("place-{}-{}", row + 1, i + 1));
+            svg.rect({left, top}, {side, side}, {.stroke = Ink::quiet});
+            svg.text({left + 0.5f * side, top + side + 20}, graded[i].name, {.size = 16});
+            svg.text({left + 0.5f * side, top + side + 42},
+                     view.leaks
+                         ? fmt::format("{:.1f} % leak",
+                                       100.0 * static_cast<double>(view.leaks) / (side * side))
+                         : "no leak",
+                     {.ink = view.leaks ? Ink::vermillion : Ink::quiet, .size = 16});
+        }
+    }
+    write_drawing(options.out, "fig_03_05", svg);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// 3.9 A scene, painted
+
+namespace {
+
+/// Tells neighbouring fragments apart: a little lighter or darker.
+float tint(std::size_t fragment) {
+    return 0.82f + 0.18f * Pcg32(fragment).uniform();
+}
+
+}  // namespace
+
+void draw_painting(const Options& options) {
+    constexpr int width = 400, height = 400,
+                  samples = 3;  // of each stage; rays for a pixel, both ways
+    Scene scene = make_scene("room:3", options.seed);
+    scene.background = Color(1.0f);  // what is not yet painted
+    const BspTree<3> tree = BspBuilder<3>::build(corners(scene.mesh.triangles()));
+    const FragmentRays covers(tree, Grade::exact);
+
+    Image fine(samples * width, samples * height);
+    std::fill_n(&fine.at(0, 0), fine.width() * fine.height(), scene.background);
+    std::vector<Image> stages;
+    std::size_t painted = 0;
+    tree.back_to_front(scene.camera.eye, [&](const Fragment<3>& fragment) {
+        const auto number = static_cast<std::size_t>(&fragment - tree.fragments.data());
+        for_pixels_of(fragment, tree, covers, scene.camera, fine.width(), fine.height(),
+                      [&](int x, int y, const Ray& ray, const Hit& hit) {
+                          fine.at(x, y) = tint(number) *
+                                          shade(scene, ray, hit, [](const Ray&) { return true; });
+                      });
+        ++painted;
+        if (painted * 3 / tree.fragments.size() == stages.size()) return;
+        Image& stage = stages.emplace_back(width, height);
+        for (int y = 0; y < fine.height(); ++y)
+            for (int x = 0; x < fine.width(); ++x)
+                stage.at(x / samples, y / samples) +=
+                    fine.at(x, y) / static_cast<float>(samples * samples);
+    });
+    write_png(options.out / "fig_03_09.png", side_by_side(stages));
+}
+
+}  // namespace space::ch03

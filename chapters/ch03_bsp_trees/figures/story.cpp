@@ -1,0 +1,189 @@
+#include "chapters/ch03_bsp_trees/figures/story.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/scene.hpp"
+
+namespace space::ch03 {
+namespace {
+
+/// Writes the builder's events down.
+class Watcher {
+  public:
+    Watcher(Story& story, std::span<const Segment> segments) : story_(story) {
+        for (std::uint32_t i = 0; i < segments.size(); ++i)
+            story_.pieces.push_back({std::string(1, static_cast<char>('A' + static_cast<int>(i))),
+                                     i, Double2(segments[i].a), Double2(segments[i].b)});
+    }
+    template <int D>
+    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t,
+                std::int32_t parent, bool in_front) {
+        story_.turns.push_back({parent, in_front, polygon, {}, {}, {}, {}, {}, {}});
+    }
+    template <int D>
+    void placed(const Fragment<D>& fragment, Side side) {
+        const std::size_t piece = number_of(fragment);
+        Turn& turn = story_.turns.back();
+        turn.set.push_back(piece);
+        if (side == Side::front) turn.front.push_back(piece);
+        if (side == Side::back) turn.back.push_back(piece);
+        if (side == Side::on) turn.own.push_back(piece);
+    }
+    template <int D>
+    void cut(const Fragment<D>& whole, const Fragment<D>& front, const Fragment<D>& back) {
+        const std::size_t piece = number_of(whole);
+        Turn& turn = story_.turns.back();
+        turn.cuts.push_back({piece, add(piece, front, '1'), add(piece, back, '2')});
+        turn.front.push_back(turn.cuts.back().front);
+        turn.back.push_back(turn.cuts.back().back);
+    }
+    template <int D>
+    std::size_t number_of(const Fragment<D>& fragment) const {
+        const auto same = [&](const Piece& piece) {
+            return piece.polygon == fragment.polygon && piece.from == fragment.corners[0].at &&
+                   piece.to == fragment.corners[1].at;
+        };
+        const auto& pieces = story_.pieces;
+        return static_cast<std::size_t>(std::ranges::find_if(pieces, same) - pieces.begin());
+    }
+
+  private:
+    template <int D>
+    std::size_t add(std::size_t whole, const Fragment<D>& fragment, char suffix) {
+        story_.pieces.push_back({story_.pieces[whole].name + suffix, fragment.polygon,
+                                 fragment.corners[0].at, fragment.corners[1].at});
+        return story_.pieces.size() - 1;
+    }
+    Story& story_;
+};
+
+double distance(const Double2& p, const Double2& from, const Double2& to) {
+    const Double2 way = to - from;
+    const double along = std::clamp(glm::dot(p - from, way) / glm::dot(way, way), 0.0, 1.0);
+    return glm::length(p - from - along * way);
+}
+
+/// Of a grid of points the one of the cell that is farthest from its sides and from all pieces;
+/// those have names, and count as nearer than they are.
+Double2 roomy_place(const ConvexCell& cell, std::span<const Piece> pieces) {
+    Double2 low(infinity), high(-infinity), best = cell.front();
+    for (const Double2& corner : cell) low = glm::min(low, corner), high = glm::max(high, corner);
+    double most = 0.0;
+    constexpr int steps = 48;
+    for (int i = 1; i < steps * steps; ++i) {
+        const Double2 p = low + Double2(i % steps, i / steps) / double{steps} * (high - low);
+        double room = infinity;
+        for (std::size_t k = 0; k < cell.size(); ++k) {
+            const Double2 &a = cell[k], &b = cell[(k + 1) % cell.size()];
+            const bool inside = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
+            room = std::min(room, inside ? distance(p, a, b) : 0.0);
+        }
+        for (const Piece& piece : pieces)
+            room = std::min(room, 0.5 * distance(p, piece.from, piece.to));
+        if (room > most) most = room, best = p;
+    }
+    return best;
+}
+
+}  // namespace
+
+Double2 cut_point(const Story& story, const Turn::Cut& cut) {
+    const Piece &front = story.pieces[cut.front], &back = story.pieces[cut.back];
+    return front.from == back.to ? front.from : front.to;
+}
+
+ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_front) {
+    ConvexCell part;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        const Double2 &p = cell[i], &q = cell[(i + 1) % cell.size()];
+        const double at_p = line.distance(p), at_q = line.distance(q);
+        if (in_front ? at_p >= 0.0 : at_p <= 0.0) part.push_back(p);
+        if (at_p * at_q < 0.0) part.push_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    return part;
+}
+
+Story watched_build(std::span<const Segment> segments, const BspConfig& config,
+                    const ConvexCell& frame) {
+    Story story;
+    Watcher watcher(story, segments);
+    story.tree = BspBuilder<2, Watcher&>::build(corners(segments), config, watcher);
+    for (const Fragment<2>& fragment : story.tree.fragments)
+        story.fragment_pieces.push_back(watcher.number_of(fragment));
+    const auto line_of = [&](std::int32_t node) {
+        return story.tree.planes[story.tree.nodes[static_cast<std::size_t>(node)].plane];
+    };
+    for (Turn& turn : story.turns)
+        turn.cell = turn.parent == BspTree<2>::none
+                        ? frame
+                        : part_of(story.turns[static_cast<std::size_t>(turn.parent)].cell,
+                                  line_of(turn.parent), turn.in_front);
+
+    // From left to right: behind a node, then before it.
+    const auto visit = [&](const auto& self, std::int32_t node) -> void {
+        const auto& children = story.tree.nodes[static_cast<std::size_t>(node)];
+        for (const bool in_front : {false, true}) {
+            const std::int32_t child = in_front ? children.front : children.back;
+            if (child != BspTree<2>::none)
+                self(self, child);
+            else
+                story.cells.push_back({node,
+                                       in_front,
+                                       part_of(story.turns[static_cast<std::size_t>(node)].cell,
+                                               line_of(node), in_front),
+                                       {}});
+        }
+    };
+    if (!story.tree.nodes.empty()) visit(visit, 0);
+    for (EmptyCell& cell : story.cells) cell.place = roomy_place(cell.cell, story.pieces);
+    return story;
+}
+
+Story heinonen_story() {
+    static constexpr std::uint32_t order[] = {6, 4, 1, 0};  // G, E, B, A
+    constexpr double size = heinonen_size;
+    return watched_build(heinonen_segments(), {.splitter = SplitterChoice::first, .order = order},
+                         {{0.0, 0.0}, {size, 0.0}, {size, size}, {0.0, size}});
+}
+
+std::string written(const Piece& piece) {
+    const std::string letter = "*" + piece.name.substr(0, 1) + "*";
+    return piece.name.size() == 1 ? letter : letter + "_{" + piece.name.substr(1) + "}";
+}
+
+std::string written(const Story& story, std::span<const std::size_t> set) {
+    std::string text = "{";
+    for (const std::size_t piece : set)
+        text += (text.size() > 1 ? ", " : "") + written(story.pieces[piece]);
+    return text + "}";
+}
+
+TreeLayout layout_of(const Story& story) {
+    TreeLayout layout;
+    layout.nodes.resize(story.turns.size());
+    for (std::size_t i = 0; i < story.turns.size(); ++i) {
+        const std::int32_t parent = story.turns[i].parent;
+        const double level = parent == BspTree<2>::none
+                                 ? 0.0
+                                 : layout.nodes[static_cast<std::size_t>(parent)].y + 1.0;
+        layout.nodes[i].y = level;
+        layout.levels = std::max(layout.levels, static_cast<std::size_t>(level) + 2);
+    }
+    for (std::size_t i = 0; i < story.cells.size(); ++i)
+        layout.cells.push_back(
+            {static_cast<double>(i) + 0.5,
+             layout.nodes[static_cast<std::size_t>(story.cells[i].node)].y + 1.0});
+    // A node stands over the middle of its children; those come after it in the list.
+    for (std::size_t i = story.turns.size(); i-- > 0;) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < story.cells.size(); ++c)
+            if (story.cells[c].node == static_cast<std::int32_t>(i)) sum += layout.cells[c].x;
+        for (std::size_t c = i + 1; c < story.turns.size(); ++c)
+            if (story.turns[c].parent == static_cast<std::int32_t>(i)) sum += layout.nodes[c].x;
+        layout.nodes[i].x = sum / 2.0;
+    }
+    return layout;
+}
+
+}  // namespace space::ch03

@@ -1,0 +1,241 @@
+#include "chapters/ch03_bsp_trees/measured/measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/parallel.hpp"
+#include "common/program/progress.hpp"
+#include "common/scene.hpp"
+
+namespace space::ch03 {
+namespace {
+
+/// Counts what goes where; what is chosen and cut does not matter.
+struct PlacedCounter : NoBspObserver {
+    std::uint64_t count = 0;
+
+    template <int D>
+    void placed(const Fragment<D>&, Side) {
+        ++count;
+    }
+};
+
+Point3 in_cube(Pcg32& random) {
+    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    return {x, y, z};
+}
+
+}  // namespace
+
+Amounts amounts(const Options& options) {
+    if (options.small)
+        return {.sizes = 3, .max_classified = 2'000'000, .max_fragments = 20'000, .rays = 100,
+                .edge_rays = 2'000, .rounds = 1};
+    if (options.quick)
+        return {.sizes = 5, .max_classified = 20'000'000, .max_fragments = 100'000, .rays = 300,
+                .edge_rays = 20'000, .rounds = 3};
+    return {.sizes = 7, .max_classified = 500'000'000, .max_fragments = 1'500'000, .rays = 1'000,
+            .edge_rays = 1'000'000, .rounds = 5};
+}
+
+std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
+                                  std::uint64_t seed) {
+    Aabb box;
+    for (const Triangle& triangle : triangles) box.extend(bounds(triangle));
+    const Double3 centre(box.centroid()), half = 0.5 * Double3(box.extent());
+    Pcg32 random(seed);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        Double3 away;
+        do away = Double3(in_cube(random));
+        while (glm::length(away) > 1.0 || glm::length(away) < 0.01);
+        const Point3 origin(centre + 2.0 * glm::length(half) * glm::normalize(away));
+        const Point3 aim(centre + half * Double3(in_cube(random)));
+        rays.push_back({.origin = origin, .direction = aim - origin});
+    }
+    return rays;
+}
+
+TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& options)
+    : scene(std::move(name)), triangles(std::move(all)),
+      rays(rays_from_around(triangles, amounts(options).rays, options.seed)) {
+    const Naive<> naive = Naive<>::build(triangles);
+    truth.resize(rays.size());
+    parallel_for(rays.size(), options.threads, 16,
+                 [&](std::size_t i) { truth[i] = closest_hit(naive, rays[i]); });
+}
+
+TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments,
+                       std::uint64_t max_placed) {
+    const BspConfig config{.splitter = method.splitter, .straddlers = method.straddlers,
+                           .max_fragments = max_fragments, .max_placed = max_placed};
+    PlacedCounter counter;
+    Stopwatch stopwatch;
+    const auto bsp = Bsp<>::build(task.triangles, config, counter);
+    TreePoint point{.scene = task.scene, .method = std::string(method.name)};
+    point.build_ms = stopwatch.lap().count();
+    point.polygons = task.triangles.size();
+    point.nodes = bsp.tree().nodes.size();
+    point.fragments = bsp.tree().fragments.size();
+    point.depth = bsp.tree().depth();
+    point.placed = counter.count;
+
+    std::vector<std::uint64_t> pieces(task.triangles.size());
+    for (const Fragment<3>& fragment : bsp.tree().fragments)
+        point.most_pieces = std::max(point.most_pieces, ++pieces[fragment.polygon]);
+
+    TraversalCounts counts;
+    for (std::size_t i = 0; i < task.rays.size(); ++i)
+        point.wrong += bsp.closest_hit(task.rays[i], counts) != task.truth[i];
+    point.rays = task.rays.size();
+    point.nodes_visited = counts.nodes_visited;
+    point.triangles_tested = counts.triangles_tested;
+    return point;
+}
+
+// ------------------------------------------------------------------------------------------------
+// Scenes of one size
+
+MethodTrees measure_methods(const std::string& scene, const Options& options) {
+    const TreeTask task(scene, make_scene(scene, options.seed, options.small).mesh.triangles(), options);
+    MethodTrees result{.scene = scene};
+    Progress progress("trees of " + scene, methods.size());
+    for (const Method& method : methods) {
+        try {
+            result.trees.push_back(measure_tree(task, method, max_scene_fragments, max_scene_placed));
+        } catch (const Error& error) {
+            result.given_up.push_back(fmt::format("{}: {}", method.name, error.what()));
+        }
+        progress.step();
+    }
+    return result;
+}
+
+std::vector<TreePoint> measure_scenes(const Options& options) {
+    std::vector<const char*> scenes{"stadium"};
+    if (!options.small) scenes.insert(scenes.end(), {"sphereflake", "lattice", "building:1"});
+    if (!options.small && !options.quick) scenes.insert(scenes.end(), {"bunny", "dragon_48k"});
+    std::vector<TreePoint> points;
+    Progress progress("trees of scenes", 3 * scenes.size());
+    for (const char* name : scenes) {
+        std::optional<Scene> scene;
+        try {
+            scene = make_scene(name, options.seed, options.small);
+        } catch (const Error&) {  // a file that this machine does not have
+            progress.step(3);
+            continue;
+        }
+        const TreeTask task(name, scene->mesh.triangles(), options);
+        for (const Method& method : methods)
+            if (method.name == "weighted" || method.name == "free" || method.name == "shared") {
+                points.push_back(measure_tree(task, method, max_scene_fragments, max_scene_placed));
+                progress.step();
+            }
+    }
+    return points;
+}
+
+// ------------------------------------------------------------------------------------------------
+// Rays across planes
+
+namespace {
+
+/// The sign of a slope, 0 where double can't tell: as in cross_plane.
+int slope_sign(const Ray& ray, const SplitPlane<3>& plane) {
+    const Double3 direction(ray.direction);
+    const double slope = glm::dot(plane.normal, direction);
+    const double error = 16.0 * 0x1p-53 * plane.size * SplitPlane<3>::one_norm(direction);
+    return std::abs(slope) <= error ? 0 : slope > 0.0 ? 1 : -1;
+}
+
+}  // namespace
+
+std::vector<Crossings> measure_crossings(const Options& options) {
+    std::vector<Crossings> all;
+    for (const char* name : {"soup", "stadium", "lattice"}) {
+        const Scene scene = make_scene(name, options.seed, options.small);
+        const std::vector<Triangle> triangles = scene.mesh.triangles();
+        const auto bsp = Bsp<>::build(triangles);
+        const BspTree<3>& tree = bsp.tree();
+        Crossings crossings{.scene = name};
+        TraversalCounts counts;
+        for (const Ray& ray : rays_from_around(triangles, amounts(options).rays, options.seed)) {
+            ++crossings.rays;
+            front_to_back(tree, ray, counts, [&](const BspTree<3>::Node& node) {
+                const int side = tree.side_of(ray.origin, node);
+                const int slope = slope_sign(ray, tree.planes[node.plane]);
+                ++crossings.crossed;
+                crossings.both += node.front != tree.none && node.back != tree.none;
+                crossings.undecided += slope == 0;
+                crossings.contradicted += slope != 0 && side == slope;  // leads away from the plane
+                return double{infinity};
+            });
+        }
+        crossings.visits = counts.nodes_visited;
+        all.push_back(crossings);
+    }
+    return all;
+}
+
+// ------------------------------------------------------------------------------------------------
+// The four grades
+
+std::vector<GradePoint> measure_grades(const Options& options) {
+    const Amounts limits = amounts(options);
+    std::vector<const char*> scenes{options.small ? "lattice" : "lattice:2"};
+    if (!options.small) scenes.emplace_back("sphereflake");
+    if (!options.small && !options.quick) scenes.emplace_back("bunny");
+    std::vector<GradePoint> points;
+    Progress progress("grades", grade_names.size() * scenes.size());
+    for (const char* name : scenes) {
+        std::optional<Scene> scene;
+        try {
+            scene = make_scene(name, options.seed, options.small);
+        } catch (const Error&) {
+            progress.step(grade_names.size());
+            continue;
+        }
+        const std::vector<Corners<3>> polygons = corners(scene->mesh.triangles());
+
+        std::vector<std::function<void()>> builds;
+        std::vector<BspTree<3>> trees(grade_names.size());
+        for (std::size_t i = 0; i < grade_names.size(); ++i)
+            builds.push_back([&, i] {
+                trees[i] = BspBuilder<3>::build(polygons, {.grade = grade_names[i].second});
+            });
+        const std::vector<double> build_ms = interleaved_medians(builds, limits.rounds);
+        for (std::size_t i = 0; i < grade_names.size(); ++i) {
+            const auto [grade_name, grade] = grade_names[i];
+            const FragmentRays rays(trees[i], grade);
+            points.push_back({.scene = name, .grade = grade_name, .nodes = trees[i].nodes.size(),
+                              .fragments = trees[i].fragments.size(),
+                              .tiling = measure_tiling(trees[i], grade),
+                              .old_edges = rays.at_old_edges(limits.edge_rays, options.seed),
+                              .cuts = rays.at_cuts(limits.edge_rays, options.seed),
+                              .build_ms = build_ms[i]});
+            trees[i] = {};
+            progress.step();
+        }
+    }
+    return points;
+}
+
+std::uint64_t wrong_answers(const Measurements& measured) {
+    std::uint64_t wrong = 0;
+    for (const TreePoint& point : measured.methods.trees) wrong += point.wrong;
+    for (const TreePoint& point : measured.scenes) wrong += point.wrong;
+    for (const Growth& growth : measured.growth)
+        for (const TreePoint& point : growth.points) wrong += point.wrong;
+    for (const Crossings& crossings : measured.crossings) wrong += crossings.contradicted;
+    for (const GradePoint& point : measured.grades)
+        if (point.grade == "exact")
+            wrong += (point.tiling.area_error != 0.0) + point.tiling.cracks + point.old_edges.slipped +
+                     point.cuts.slipped;
+    return wrong;
+}
+
+}  // namespace space::ch03

@@ -1,0 +1,68 @@
+#include "common/program/report.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace space {
+namespace {
+
+/// Characters that a terminal shows: UTF-8 bytes that begin one.
+std::size_t shown_width(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+bool looks_like_number(const std::string& cell) {
+    return !cell.empty() && cell.find_first_not_of("0123456789.,+-eE%x ") == std::string::npos;
+}
+
+}  // namespace
+
+void Table::row(std::vector<std::string> cells) {
+    cells.resize(headings_.size());
+    rows_.push_back(std::move(cells));
+}
+
+std::string Table::text() const {
+    std::vector<std::size_t> widths;
+    std::vector<bool> numeric;
+    for (std::size_t column = 0; column < headings_.size(); ++column) {
+        std::size_t width = shown_width(headings_[column]);
+        bool numbers = !rows_.empty();
+        for (const auto& row : rows_) {
+            width = std::max(width, shown_width(row[column]));
+            numbers = numbers && (row[column].empty() || row[column] == "-" || looks_like_number(row[column]));
+        }
+        widths.push_back(width);
+        numeric.push_back(numbers);
+    }
+    const auto line = [&](const std::vector<std::string>& cells) {
+        std::string result;
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            const std::string padding(widths[column] - shown_width(cells[column]), ' ');
+            result += column ? "  " : "";
+            result += numeric[column] ? padding + cells[column] : cells[column] + padding;
+        }
+        result.erase(result.find_last_not_of(' ') + 1);
+        return result + '\n';
+    };
+    std::string result = line(headings_);
+    std::vector<std::string> rule;
+    for (const std::size_t width : widths) rule.push_back(std::string(width, '-'));
+    result += line(rule);
+    for (const auto& row : rows_) result += line(row);
+    return result;
+}
+
+void Table::print() const { fmt::print("{}", text()); }
+
+void print_heading(const std::string& text) { fmt::print("\n{}\n{}\n", text, std::string(shown_width(text), '=')); }
+
+std::string with_commas(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, 1, ',');
+    return digits;
+}
+
+}  // namespace space

@@ -1,0 +1,297 @@
+// The filtered exact test against the exact oracle: hit and miss, t to the last bit, and the ends of the interval.
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <functional>
+
+#include "chapters/ch02_intersection_tests/measured/inputs.hpp"
+#include "tests/suite/accelerator_suite.hpp"
+
+namespace space::ch02 {
+namespace {
+
+#ifdef BOOK_SANITIZED
+constexpr int pairs_each = 300;
+#else
+constexpr int pairs_each = 3'000;
+#endif
+
+struct Stages {
+    std::array<std::uint64_t, 3> count{};
+    void decided(Stage stage) { ++count[static_cast<std::size_t>(stage)]; }
+    std::uint64_t operator[](Stage stage) const { return count[static_cast<std::size_t>(stage)]; }
+};
+
+struct Outcome {
+    std::uint64_t decisions = 0, hits = 0, boundary = 0, disagreements = 0, wrong_t = 0, wrong_uv = 0;
+    Stages stages;
+    std::string first;  ///< of the disagreements
+
+    std::string text() const {
+        return fmt::format("{} decisions, {} hits, {} at edges or vertices; filter {}, integers {}, expansions {}{}",
+                           decisions, hits, boundary, stages.count[0], stages.count[1], stages.count[2], first);
+    }
+    bool right() const { return disagreements == 0 && wrong_t == 0 && wrong_uv == 0; }
+    void operator+=(const Outcome& other) {
+        decisions += other.decisions;
+        hits += other.hits;
+        boundary += other.boundary;
+        disagreements += other.disagreements;
+        wrong_t += other.wrong_t;
+        wrong_uv += other.wrong_uv;
+        for (std::size_t i = 0; i < 3; ++i) stages.count[i] += other.stages.count[i];
+        if (first.empty()) first = other.first;
+    }
+};
+
+std::string words(const RayAndTriangle& pair) {
+    std::string text;
+    for (const Vector3& v : {pair.ray.origin, pair.ray.direction, pair.triangle.a, pair.triangle.b, pair.triangle.c})
+        text += fmt::format(" ({:a}, {:a}, {:a})", v.x, v.y, v.z);
+    return text + fmt::format(" in [{:a}, {:a}]", pair.ray.tmin, pair.ray.tmax);
+}
+
+/// Returns the exact t.
+std::optional<float> compare_one(const RayAndTriangle& pair, Outcome& outcome) {
+    const std::vector<ExactHit> exact = ExactOracle::build({&pair.triangle, 1}).hits(pair.ray);
+    const std::optional<Hit> hit = FilteredExact::intersect(pair.ray, pair.triangle, outcome.stages);
+    ++outcome.decisions;
+    outcome.hits += !exact.empty();
+    outcome.boundary += !exact.empty() && exact[0].place != Place::interior;
+    const auto wrong = [&](std::uint64_t& counter, const char* what) {
+        if (++counter == 1 && outcome.first.empty()) outcome.first = fmt::format("\n  {}:{}", what, words(pair));
+    };
+    if (hit.has_value() != !exact.empty()) wrong(outcome.disagreements, exact.empty() ? "wrong hit" : "wrong miss");
+    if (hit && !exact.empty()) {
+        if (hit->t != exact[0].t) wrong(outcome.wrong_t, "wrong t");
+        if (!(hit->u >= 0.0f && hit->v >= 0.0f && double{hit->u} + hit->v <= 1.0 + 0x1p-23))
+            wrong(outcome.wrong_uv, "wrong u, v");
+    }
+    return exact.empty() ? std::nullopt : std::optional(exact[0].t);
+}
+
+/// Every pair, and where it hits the same with the interval's ends at t and its neighbours.
+Outcome compare_all(int pairs, const std::function<RayAndTriangle()>& make) {
+    Outcome outcome;
+    for (int i = 0; i < pairs; ++i) {
+        RayAndTriangle pair = make();
+        const std::optional<float> t = compare_one(pair, outcome);
+        if (!t || i % 4 != 0) continue;
+        const float before = std::nextafter(*t, -infinity), after = std::nextafter(*t, infinity);
+        for (const auto& [tmin, tmax] : {std::pair{*t, *t},
+                                         {after, infinity},
+                                         {-infinity, before},
+                                         {before, after},
+                                         {*t, infinity},
+                                         {-infinity, *t}}) {
+            pair.ray.tmin = tmin;
+            pair.ray.tmax = tmax;
+            compare_one(pair, outcome);
+        }
+    }
+    return outcome;
+}
+
+/// Any finite float: the bits are drawn.
+float wild(Pcg32& random) {
+    for (;;)
+        if (const auto x = std::bit_cast<float>(random.next()); std::isfinite(x)) return x;
+}
+float small_whole(Pcg32& random) {
+    return static_cast<float>(random.below(9)) - 4.0f;
+}
+Vector3 vector_of(Pcg32& random, float (*component)(Pcg32&)) {
+    const float x = component(random), y = component(random), z = component(random);
+    return {x, y, z};
+}
+/// Exponents from `low` to `low + 15`.
+template <int Low>
+float near_power(Pcg32& random) {
+    return std::ldexp(random.uniform(-1.0f, 1.0f), Low + static_cast<int>(random.below(16)));
+}
+
+RayAndTriangle all_of(Pcg32& random, float (*component)(Pcg32&)) {
+    const Vector3 o = vector_of(random, component), d = vector_of(random, component), a = vector_of(random, component),
+                  b = vector_of(random, component);
+    return {{.origin = o, .direction = d, .tmin = -infinity, .tmax = infinity}, {a, b, vector_of(random, component)}};
+}
+/// The origin lies on the line from a point of the triangle's border backwards by a whole number of directions, all in
+/// numbers of `component`: exactly, as long as nothing is rounded.
+RayAndTriangle at_border(Pcg32& random, float (*component)(Pcg32&)) {
+    RayAndTriangle pair = all_of(random, component);
+    const Triangle& t = pair.triangle;
+    const Vector3 target = random.below(2) ? t.a : 0.5f * t.a + 0.5f * t.b;
+    pair.ray.origin = target - static_cast<float>(random.below(4)) * pair.ray.direction;
+    return pair;
+}
+/// In one plane, or nearly.
+RayAndTriangle edge_on(Pcg32& random) {
+    RayAndTriangle pair = make_pair({"", Aim::edge}, random);
+    const Triangle& t = pair.triangle;
+    const Double3 ab = Double3(t.b) - Double3(t.a), ac = Double3(t.c) - Double3(t.a);
+    const auto in_plane = [&](double u, double v) { return Double3(t.a) + u * ab + v * ac; };
+    pair.ray.origin = Point3(in_plane(-random.uniform_double(), 2.0 * random.uniform_double()));
+    pair.ray.direction = Point3(in_plane(random.uniform_double(), random.uniform_double())) - pair.ray.origin;
+    return pair;
+}
+
+struct Kind {
+    const char* name;
+    std::function<RayAndTriangle(Pcg32&)> make;
+};
+const std::vector<Kind>& hostile_kinds() {
+    static const std::vector<Kind> all{
+        {"small whole numbers", [](Pcg32& random) { return all_of(random, small_whole); }},
+        {"small whole numbers, at the border", [](Pcg32& random) { return at_border(random, small_whole); }},
+        {"any bits", [](Pcg32& random) { return all_of(random, wild); }},
+        {"any bits, at the border", [](Pcg32& random) { return at_border(random, near_power<-8>); }},
+        {"denormal", [](Pcg32& random) { return at_border(random, near_power<-140>); }},
+        {"huge", [](Pcg32& random) { return at_border(random, near_power<108>); }},
+        {"within the plane, or nearly", edge_on},
+        {"no area",
+         [](Pcg32& random) {
+             RayAndTriangle pair = make_pair({"", Aim::edge}, random);
+             Triangle& t = pair.triangle;
+             t.c = random.below(2) ? t.a : 0.5f * t.a + 0.5f * t.b;
+             return pair;
+         }},
+    };
+    return all;
+}
+
+/// `first` pairs of each of the first three classes, random and aimed at edges and vertices.
+Outcome all_inputs(int pairs, int first) {
+    Outcome sum;
+    int first_left = 3;
+    const auto add = [&](std::string_view name, const auto& make) {
+        const Outcome outcome = compare_all(first_left-- > 0 ? first : pairs, make);
+        fmt::print("{}: {}\n", name, outcome.text());
+        std::fflush(stdout);
+        INFO(name << ": " << outcome.text());
+        CHECK(outcome.right());
+        sum += outcome;
+    };
+    for (const TriangleInput& input : triangle_inputs()) {
+        Pcg32 random(201);
+        add(input.name, [&] { return make_pair(input, random); });
+    }
+    for (const Aim aim : {Aim::edge, Aim::vertex, Aim::grazing})
+        for (const auto& [scale, shift] : {std::pair{-20, 0}, {20, 0}, {0, 7}}) {
+            Pcg32 random(202);
+            const TriangleInput input{"", aim, scale, shift};
+            add(fmt::format("aim {}, scaled by 10^{}, shifted by 10^{}", static_cast<int>(aim), scale, shift),
+                [&] { return make_pair(input, random); });
+        }
+    for (const Kind& kind : hostile_kinds()) {
+        Pcg32 random(203);
+        add(kind.name, [&] { return kind.make(random); });
+    }
+    fmt::print("all: {}\n", sum.text());
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "filtered exact decides as exact arithmetic does, with the nearest float t, on every class of input and at every "
+    "end of the interval") {
+    const Outcome sum = all_inputs(pairs_each, pairs_each);
+    CHECK(sum.hits > sum.decisions / 10);
+    CHECK(sum.boundary > 0);
+    // All three stages are tried.
+    CHECK(sum.stages[Stage::filter] > 0);
+    CHECK(sum.stages[Stage::integers] > 0);
+    CHECK(sum.stages[Stage::expansions] > 0);
+    CHECK(sum.stages[Stage::filter] + sum.stages[Stage::integers] + sum.stages[Stage::expansions] == sum.decisions);
+}
+
+TEST_CASE("filtered exact decides as exact arithmetic does: the full sizes", "[.big]") {
+    CHECK(all_inputs(100'000, 1'000'000).right());
+}
+
+TEST_CASE("each stage decides alone where the one before cannot tell, and finds the point that the ray is aimed at") {
+    const Triangle triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    for (const auto& [target, stage] : {std::pair{Point3(1, 1, 0), Stage::filter},
+                                        {Point3(2, 0, 0), Stage::integers},
+                                        {Point3(0, 0, 0), Stage::integers}}) {
+        Stages stages;
+        const auto hit = FilteredExact::intersect({target + Vector3(1, 2, 3), {-1, -2, -3}}, triangle, stages);
+        REQUIRE(hit);
+        CHECK(hit->t == 1.0f);
+        CHECK(hit->u == target.x / 4.0f);
+        CHECK(hit->v == target.y / 4.0f);
+        CHECK(stages[stage] == 1);
+        CHECK(stages[Stage::filter] + stages[Stage::integers] + stages[Stage::expansions] == 1);
+    }
+    Stages stages;  // 0x1p-100 beside 4: no integer holds both
+    const auto hit = FilteredExact::intersect({{2, 0x1p-100f, 3}, {0, -0x1p-100f, -3}}, triangle, stages);
+    REQUIRE(hit);
+    CHECK(hit->t == 1.0f);
+    CHECK(hit->u == 0.5f);
+    CHECK(hit->v == 0.0f);
+    CHECK(stages[Stage::expansions] == 1);
+    CHECK(stages[Stage::filter] + stages[Stage::integers] == 0);
+    CHECK_FALSE(FilteredExact::intersect({{2, -0x1p-149f, 3}, {0, 0, -3}}, triangle));
+    CHECK(FilteredExact::intersect({{2, 0x1p-149f, 3}, {0, 0, -3}}, triangle));
+}
+
+TEST_CASE("t is the nearest float up to the largest one, and infinity from half a unit in the last place beyond it") {
+    // From z = 2^24 down to about z = 1/2, 2^-104 per unit of t: t is about 2^128 - 2^103, the middle between the
+    // largest float and what would follow it; the plane's tilt makes it differ by 2^-84 of itself.
+    const auto with_tilt = [](float tilt, float tmax) {
+        const Ray ray{{0x1p-36f, 0x1p-36f, 0x1p24f}, {0, 0, -0x1p-104f}, 0.0f, tmax};
+        return RayAndTriangle{ray, {{0, 0, 0.5f}, {1, 0, 0.5f + tilt}, {0, 1, 0.5f}}};
+    };
+    Outcome outcome;
+    constexpr float largest = std::numeric_limits<float>::max();
+    CHECK(compare_one(with_tilt(0x1p-23f, infinity), outcome) == largest);
+    CHECK(compare_one(with_tilt(0x1p-23f, largest), outcome) == largest);
+    CHECK(compare_one(with_tilt(0.0f, infinity), outcome) == infinity);
+    CHECK(compare_one(with_tilt(-0x1p-23f, infinity), outcome) == infinity);
+    CHECK(compare_one(with_tilt(-0x1p-23f, largest), outcome) == std::nullopt);
+    INFO(outcome.text());
+    CHECK(outcome.right());
+    CHECK(outcome.stages[Stage::expansions] == 5);
+}
+
+TEST_CASE("a ray that is not valid and a triangle that is not finite are never hit") {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const Triangle triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    const Ray good{{1, 1, 3}, {0, 0, -3}};
+    CHECK(FilteredExact::intersect(good, triangle));
+    for (const float bad : {nan, infinity, -infinity})
+        for (int axis = 0; axis < 3; ++axis) {
+            Ray ray = good;
+            ray.origin[axis] = bad;
+            CHECK_FALSE(FilteredExact::intersect(ray, triangle));
+            ray = good;
+            ray.direction[axis] = bad;
+            CHECK_FALSE(FilteredExact::intersect(ray, triangle));
+            for (Point3 Triangle::*corner : {&Triangle::a, &Triangle::b, &Triangle::c}) {
+                Triangle broken = triangle;
+                (broken.*corner)[axis] = bad;
+                CHECK_FALSE(FilteredExact::intersect(good, broken));
+            }
+        }
+    CHECK_FALSE(FilteredExact::intersect({{1, 1, 0}, {0, 0, 0}}, triangle));
+    CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, nan, infinity}, triangle));
+    CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, 0.0f, nan}, triangle));
+    CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, 2.0f, 0.0f}, triangle));
+}
+
+TEST_CASE("the suite: naive tracing with the filtered exact test, never wrong, with t to the last bit") {
+    SuiteOptions options;
+    options.aimed_rays = 300;  // naive tracing with chapter 1's test has its full share
+    options.other_rays = 60;
+    const SuiteReport report = check_accelerator<Naive<FilteredExact>, FilteredExact>(
+        "naive, filtered exact",
+        [](std::span<const Triangle> triangles) { return Naive<FilteredExact>::build(triangles); }, options);
+    CHECK(report.exact.examined() > 1'000);
+    CHECK(report.exact.wrong() == 0);
+    CHECK(report.exact.rounded_t == 0);
+    CHECK(report.exact[Agreement::interval_end] == 0);
+}
+
+}  // namespace space::ch02
