@@ -2,12 +2,12 @@
 /// The one interface of every structure of the book, and what a structure tells about itself.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -20,8 +20,8 @@ struct Hit {
     bool operator==(const Hit&) const = default;
 };
 
-/// The order of hits along a ray: of equal t the smaller triangle index wins, so that every structure
-/// returns the same triangle, whatever the order in which it looks.
+/// The order of hits along a ray: of equal t the smaller triangle index wins, so that every
+/// structure returns the same triangle, whatever the order in which it looks.
 inline bool nearer(const Hit& hit, const Hit& other) {
     return hit.t < other.t || (hit.t == other.t && hit.triangle < other.triangle);
 }
@@ -49,19 +49,21 @@ struct TraversalCounts {
 
 /// Size and shape of a structure; a field without a meaning for it stays empty.
 struct TreeShape {
-    std::optional<std::size_t> nodes = {};   ///< inner nodes and leaves
+    std::optional<std::size_t> nodes = {};  ///< inner nodes and leaves
     std::optional<std::size_t> leaves = {};
-    std::optional<std::size_t> depth = {};   ///< edges from the root to the deepest leaf
-    std::size_t references = 0;         ///< triangle entries over all leaves, duplicates counted
-    std::size_t bytes = 0;              ///< memory that the structure holds
-    std::optional<double> sah_cost = {};     ///< expected cost of a random ray, by the structure's own constants
+    std::optional<std::size_t> depth = {};  ///< edges from the root to the deepest leaf
+    std::size_t references = 0;  ///< triangle entries over all leaves, duplicates counted
+    std::size_t bytes = 0;       ///< memory that the structure holds
+    std::optional<double> sah_cost =
+        {};  ///< expected cost of a random ray, by the structure's own constants
 };
 
-/// What can be asked of any structure. closest_hit: the hit with the smallest t in [tmin, tmax]; any_hit:
-/// whether there is one. Structures also have a static build(std::span<const Triangle>, Config) and are
-/// plain values.
+/// What can be asked of any structure. closest_hit: the hit with the smallest t in [tmin, tmax];
+/// any_hit: whether there is one. Structures also have a static build(std::span<const Triangle>,
+/// Config) and are plain values.
 template <class A>
-concept Accelerator = requires(const A& accelerator, const Ray& ray, NoCounts& none, TraversalCounts& counts) {
+concept Accelerator = requires(const A& accelerator, const Ray& ray, NoCounts& none,
+                               TraversalCounts& counts) {
     { accelerator.closest_hit(ray, none) } -> std::same_as<std::optional<Hit>>;
     { accelerator.closest_hit(ray, counts) } -> std::same_as<std::optional<Hit>>;
     { accelerator.any_hit(ray, none) } -> std::same_as<bool>;

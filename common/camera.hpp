@@ -2,13 +2,14 @@
 /// A pinhole camera: where rays start, and where a rasteriser projects to.
 #pragma once
 
-#include <cmath>
-
 #include "common/geometry.hpp"
+
+#include <cmath>
 
 namespace space {
 
-/// Looks from the eye to the target; `up` points upwards in the picture; the field of view is vertical, in degrees.
+/// Looks from the eye to the target; `up` points upwards in the picture; the field of view is
+/// vertical, in degrees.
 struct Camera {
     Point3 eye{0.0f, 0.0f, 1.0f};
     Point3 target{0.0f};
@@ -16,8 +17,8 @@ struct Camera {
     float field_of_view = 45.0f;
 };
 
-/// The camera's orthonormal axes in world coordinates, in double: x to the right, y up, z *against* the
-/// view direction (a right-handed system).
+/// The camera's orthonormal axes in world coordinates, in double: x to the right, y up, z *against*
+/// the view direction (a right-handed system).
 struct CameraFrame {
     Double3 right, up, back;
     double tan_half_fov;
@@ -30,13 +31,15 @@ struct CameraFrame {
     }
 };
 
-/// The ray through the point (x, y) of an image of width x height pixels; (0, 0) is the top left corner of the
-/// picture and (0.5, 0.5) the centre of its first pixel. The direction ends on the plane at distance 1 from the eye.
-inline Ray camera_ray(const Camera& camera, const CameraFrame& frame, double x, double y, int width, int height) {
+/// The ray through the point (x, y) of an image of width x height pixels; (0, 0) is the top left
+/// corner of the picture and (0.5, 0.5) the centre of its first pixel. The direction ends on the
+/// plane at distance 1 from the eye.
+inline Ray camera_ray(const Camera& camera, const CameraFrame& frame, double x, double y, int width,
+                      int height) {
     const double half_height = frame.tan_half_fov;
     const double half_width = half_height * width / height;
-    const Double3 direction =
-        frame.right * ((2.0 * x / width - 1.0) * half_width) + frame.up * ((1.0 - 2.0 * y / height) * half_height) - frame.back;
+    const Double3 direction = frame.right * ((2.0 * x / width - 1.0) * half_width) +
+                              frame.up * ((1.0 - 2.0 * y / height) * half_height) - frame.back;
     return {.origin = camera.eye, .direction = Vector3(direction)};
 }
 

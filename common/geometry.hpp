@@ -3,14 +3,14 @@
 /// Coordinates are floats; D is 2 (the drawings) or 3 (the scenes).
 #pragma once
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace space {
 
@@ -58,8 +58,8 @@ struct BasicAabb {
     Point<D> centroid() const { return min * 0.5f + max * 0.5f; }
     /// Edge lengths; zero for an empty box.
     Vector<D> extent() const { return is_empty() ? Vector<D>{0.0f} : max - min; }
-    /// Half the surface area (D = 3) or half the perimeter (D = 2); zero for an empty box. In double:
-    /// a product of two large floats overflows.
+    /// Half the surface area (D = 3) or half the perimeter (D = 2); zero for an empty box. In
+    /// double: a product of two large floats overflows.
     double half_area() const {
         const glm::vec<D, double> e{extent()};
         if constexpr (D == 2)
@@ -79,14 +79,16 @@ struct BasicAabb {
             if (!(min[axis] <= p[axis] && p[axis] <= max[axis])) return false;
         return true;
     }
-    bool contains(const BasicAabb& box) const { return box.is_empty() || (contains(box.min) && contains(box.max)); }
+    bool contains(const BasicAabb& box) const {
+        return box.is_empty() || (contains(box.min) && contains(box.max));
+    }
     bool operator==(const BasicAabb&) const = default;
 };
 using Aabb = BasicAabb<3>;
 using Aabb2 = BasicAabb<2>;
 
-/// The points origin + t direction with t in the closed interval [tmin, tmax]. The direction need not
-/// have length 1: t is in units of the direction.
+/// The points origin + t direction with t in the closed interval [tmin, tmax]. The direction need
+/// not have length 1: t is in units of the direction.
 template <int D>
 struct BasicRay {
     Point<D> origin{0.0f};
@@ -99,12 +101,12 @@ struct BasicRay {
 using Ray = BasicRay<3>;
 using Ray2 = BasicRay<2>;
 
-/// A ray can hit something only if its origin and direction are finite, its direction is not zero and its
-/// interval holds a number (NaN fails every comparison).
+/// A ray can hit something only if its origin and direction are finite, its direction is not zero
+/// and its interval holds a number (NaN fails every comparison).
 template <int D>
 bool is_valid(const BasicRay<D>& ray) {
-    return is_finite<D>(ray.origin) && is_finite<D>(ray.direction) && ray.direction != Vector<D>{0.0f} &&
-           ray.tmin <= ray.tmax;
+    return is_finite<D>(ray.origin) && is_finite<D>(ray.direction) &&
+           ray.direction != Vector<D>{0.0f} && ray.tmin <= ray.tmax;
 }
 
 /// Three points; the front side is the one that (b - a) x (c - a) points to.
@@ -122,8 +124,8 @@ inline Aabb bounds(const Triangle& triangle) {
     return box;
 }
 
-/// Not normalised: its length is twice the area. In double, where the products of float differences are
-/// exact or nearly so.
+/// Not normalised: its length is twice the area. In double, where the products of float differences
+/// are exact or nearly so.
 inline Double3 normal(const Triangle& triangle) {
     const Double3 a{triangle.a}, b{triangle.b}, c{triangle.c};
     return glm::cross(b - a, c - a);

@@ -38,9 +38,11 @@ inline double median(std::vector<double> values) {
     return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// Runs the candidates in turn, A B C A B C ..., after one round of warming up, and returns each one's median time
-/// in milliseconds. Taking turns spreads the machine's moods over all of them, so the ratios hold.
-inline std::vector<double> interleaved_medians(std::span<const std::function<void()>> candidates, int rounds) {
+/// Runs the candidates in turn, A B C A B C ..., after one round of warming up, and returns each
+/// one's median time in milliseconds. Taking turns spreads the machine's moods over all of them, so
+/// the ratios hold.
+inline std::vector<double> interleaved_medians(std::span<const std::function<void()>> candidates,
+                                               int rounds) {
     std::vector<std::vector<double>> times(candidates.size());
     for (const auto& run : candidates) run();
     for (int round = 0; round < rounds; ++round)
@@ -54,8 +56,8 @@ inline std::vector<double> interleaved_medians(std::span<const std::function<voi
     return medians;
 }
 
-/// The least-squares slope of log y over log x: 1 for linear growth, 2 for quadratic, near 0 for none.
-/// All values must be positive; needs two different x.
+/// The least-squares slope of log y over log x: 1 for linear growth, 2 for quadratic, near 0 for
+/// none. All values must be positive; needs two different x.
 inline double log_log_slope(std::span<const double> x, std::span<const double> y) {
     const auto n = static_cast<double>(x.size());
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;

@@ -1,5 +1,7 @@
 #include "common/mesh.hpp"
 
+#include "common/program/file.hpp"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -7,20 +9,20 @@
 #include <cstring>
 #include <string>
 
-#include "common/program/file.hpp"
-
 namespace space {
 namespace {
 
-/// Does the exact sum of the six terms vanish? Rounded addition decides where its error bound allows; else the sum is
-/// kept without error as an expansion (Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic", Grow-Expansion).
+/// Does the exact sum of the six terms vanish? Rounded addition decides where its error bound
+/// allows; else the sum is kept without error as an expansion (Shewchuk 1997, "Adaptive Precision
+/// Floating-Point Arithmetic", Grow-Expansion).
 bool sum_is_zero(const std::array<double, 6>& terms) {
     double sum = 0.0, magnitude = 0.0;
     for (const double term : terms) {
         sum += term;
         magnitude += std::abs(term);
     }
-    // Five additions, each wrong by at most 2^-53 of a partial sum that is no larger than the magnitude.
+    // Five additions, each wrong by at most 2^-53 of a partial sum that is no larger than the
+    // magnitude.
     constexpr double error_bound = 8 * 0x1p-53;
     if (std::abs(sum) > error_bound * magnitude) return false;
 
@@ -39,13 +41,15 @@ bool sum_is_zero(const std::array<double, 6>& terms) {
     return true;
 }
 
-/// Multiplied out, each component of (b - a) x (c - a) is a sum of six products of two floats, and such a product is
-/// exact in double: 24 + 24 bits fit into 53, and the exponents are far from the ends.
+/// Multiplied out, each component of (b - a) x (c - a) is a sum of six products of two floats, and
+/// such a product is exact in double: 24 + 24 bits fit into 53, and the exponents are far from the
+/// ends.
 bool is_degenerate(const Triangle& triangle) {
     const Double3 a{triangle.a}, b{triangle.b}, c{triangle.c};
     for (int axis = 0; axis < 3; ++axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-        if (!sum_is_zero({a[i] * b[j], -a[j] * b[i], b[i] * c[j], -b[j] * c[i], c[i] * a[j], -c[j] * a[i]}))
+        if (!sum_is_zero(
+                {a[i] * b[j], -a[j] * b[i], b[i] * c[j], -b[j] * c[i], c[i] * a[j], -c[j] * a[i]}))
             return false;
     }
     return true;
@@ -53,7 +57,8 @@ bool is_degenerate(const Triangle& triangle) {
 
 template <class Number>
 void append_bytes(std::string& text, Number number) {
-    static_assert(std::endian::native == std::endian::little, "PLY is written in the machine's byte order");
+    static_assert(std::endian::native == std::endian::little,
+                  "PLY is written in the machine's byte order");
     const std::size_t size = text.size();
     text.resize(size + sizeof number);
     std::memcpy(text.data() + size, &number, sizeof number);
@@ -88,7 +93,8 @@ std::size_t count_degenerate(std::span<const Triangle> triangles) {
 
 void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh) {
     std::string content = fmt::format(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
+        "y\nproperty float "
         "z\n"
         "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         mesh.vertices.size(), mesh.faces.size());

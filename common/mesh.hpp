@@ -2,13 +2,13 @@
 /// Indexed triangle meshes, and reading them from files.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -28,12 +28,14 @@ struct TriangleMesh {
 
 Aabb bounds(const TriangleMesh& mesh);
 
-/// Triangles of exactly zero area, decided exactly on the float coordinates. Kept in a mesh, never hit.
+/// Triangles of exactly zero area, decided exactly on the float coordinates. Kept in a mesh, never
+/// hit.
 std::size_t count_degenerate(std::span<const Triangle> triangles);
 
-/// Reads OBJ, PLY, STL or OFF (by the file's extension); polygons are cut into triangles. Every vertex of
-/// the result is finite, every index in range, and there is at least one triangle.
-/// @throws Error (bad_input) with one line naming the file and the fault, and the place where it is known
+/// Reads OBJ, PLY, STL or OFF (by the file's extension); polygons are cut into triangles. Every
+/// vertex of the result is finite, every index in range, and there is at least one triangle.
+/// @throws Error (bad_input) with one line naming the file and the fault, and the place where it is
+/// known
 TriangleMesh load_mesh(const std::filesystem::path& file);
 
 /// Writes binary little-endian PLY, atomically. @throws Error (bad_output)

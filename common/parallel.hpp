@@ -12,8 +12,9 @@
 
 namespace space {
 
-/// Calls body(i) once for each i in 0 .. count - 1 on up to `threads` threads, which take chunks of indices in
-/// turn. The body must not care which thread calls it; the first exception is thrown on after all threads ended.
+/// Calls body(i) once for each i in 0 .. count - 1 on up to `threads` threads, which take chunks of
+/// indices in turn. The body must not care which thread calls it; the first exception is thrown on
+/// after all threads ended.
 template <class Body>
 void parallel_for(std::size_t count, unsigned threads, std::size_t chunk, const Body& body) {
     if (threads <= 1 || count <= chunk) {

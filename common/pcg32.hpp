@@ -1,6 +1,7 @@
 /// @file
-/// The random numbers of the book: PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient
-/// Statistically Good Algorithms", XSH-RR). std::uniform_* gives other numbers in another library; this does not.
+/// The random numbers of the book: PCG32 (O'Neill 2014, "PCG: A Family of Simple Fast
+/// Space-Efficient Statistically Good Algorithms", XSH-RR). std::uniform_* gives other numbers in
+/// another library; this does not.
 #pragma once
 
 #include <bit>
@@ -12,7 +13,8 @@ namespace space {
 class Pcg32 {
   public:
     /// Two generators with the same seed and different streams are independent.
-    explicit constexpr Pcg32(std::uint64_t seed, std::uint64_t stream = 0) : increment_(2 * stream + 1) {
+    explicit constexpr Pcg32(std::uint64_t seed, std::uint64_t stream = 0)
+        : increment_(2 * stream + 1) {
         next();
         state_ += seed;
         next();
@@ -37,7 +39,8 @@ class Pcg32 {
         std::uint64_t product = std::uint64_t{next()} * bound;
         if (static_cast<std::uint32_t>(product) < bound) {
             const std::uint32_t threshold = (0u - bound) % bound;
-            while (static_cast<std::uint32_t>(product) < threshold) product = std::uint64_t{next()} * bound;
+            while (static_cast<std::uint32_t>(product) < threshold)
+                product = std::uint64_t{next()} * bound;
         }
         return static_cast<std::uint32_t>(product >> 32);
     }

@@ -1,15 +1,16 @@
 /// @file
-/// A scene is triangles with a colour each, a camera, point lights and a background: no more than the pictures need.
+/// A scene is triangles with a colour each, a camera, point lights and a background: no more than
+/// the pictures need.
 #pragma once
+
+#include "common/camera.hpp"
+#include "common/mesh.hpp"
 
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "common/camera.hpp"
-#include "common/mesh.hpp"
 
 namespace space {
 
@@ -32,10 +33,13 @@ struct Scene {
     Color background{0.0f};
 
     static constexpr Color default_color{0.73f, 0.73f, 0.73f};
-    Color color(std::uint32_t triangle) const { return colors.empty() ? default_color : colors[triangle]; }
+    Color color(std::uint32_t triangle) const {
+        return colors.empty() ? default_color : colors[triangle];
+    }
 };
 
-/// One scene that can be asked for by name; the argument is its size (spheres' depth, triangles, frequency ...).
+/// One scene that can be asked for by name; the argument is its size (spheres' depth, triangles,
+/// frequency ...).
 struct SceneRecipe {
     std::string_view name;
     std::string_view about;          ///< one line, with what the size means
@@ -46,8 +50,9 @@ struct SceneRecipe {
 };
 std::span<const SceneRecipe> scene_recipes();
 
-/// Makes the scene that `spec` names: "NAME", "NAME:SIZE", "room:FILE" (that mesh on the room's table) or the path of a mesh file (which is framed by the camera
-/// and lit). The same spec and seed give the same scene, bit for bit, with every compiler.
+/// Makes the scene that `spec` names: "NAME", "NAME:SIZE", "room:FILE" (that mesh on the room's
+/// table) or the path of a mesh file (which is framed by the camera and lit). The same spec and
+/// seed give the same scene, bit for bit, with every compiler.
 /// @throws Error (usage) for an unknown name or an absurd size, (bad_input) for a broken file
 Scene make_scene(std::string_view spec, std::uint64_t seed = 1, bool small = false);
 

@@ -1,6 +1,6 @@
 /// @file
-/// What Doxygen leaves to do on its HTML files: drawings become part of the page, quoted code starts at
-/// the margin, links lead somewhere.
+/// What Doxygen leaves to do on its HTML files: drawings become part of the page, quoted code
+/// starts at the margin, links lead somewhere.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,18 @@
 
 namespace space::docs {
 
-/// Puts the SVG files that the page shows into the page itself, where the page's colours reach them; after one with steps
-/// (Svg::begin_step) comes the list of what they tell, which book.js makes into a step-through.
-/// @throws Error (bad_input) where a picture is missing or two pictures of the page share an element's id
+/// Puts the SVG files that the page shows into the page itself, where the page's colours reach
+/// them; after one with steps (Svg::begin_step) comes the list of what they tell, which book.js
+/// makes into a step-through.
+/// @throws Error (bad_input) where a picture is missing or two pictures of the page share an
+/// element's id
 std::string inline_drawings(const std::string& page, const std::filesystem::path& folder);
 
 /// Quoted code loses the indentation that all of its lines share.
 std::string dedent_fragments(const std::string& page);
 
-/// The line of links to the parts of a page of the code goes: some lead nowhere (Doxygen 1.9.4, private classes).
+/// The line of links to the parts of a page of the code goes: some lead nowhere (Doxygen 1.9.4,
+/// private classes).
 std::string without_summary(const std::string& page);
 
 /// All of these, on every page of the site.

@@ -1,18 +1,19 @@
 #include "docs/ledger.hpp"
 
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
-
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
 
 namespace space::docs {
 namespace {
 
-/// Parses a file and hands the document to `read`; a fault of the format becomes one line that names the file.
+/// Parses a file and hands the document to `read`; a fault of the format becomes one line that
+/// names the file.
 template <class Read>
 auto read_json(const std::filesystem::path& file, const Read& read) {
     try {
@@ -30,13 +31,14 @@ std::vector<Chapter> read_chapters(const std::filesystem::path& root) {
         for (const auto& entry : document) {
             const std::string folder = entry.at("folder"), begun = entry.value("begun", "");
             const auto dir = root / "chapters" / folder;
-            chapters.push_back({.number = static_cast<int>(chapters.size()) + 1,
-                                .folder = folder,
-                                .title = entry.at("title"),
-                                .teaches = entry.at("teaches"),
-                                .sources = entry.at("sources"),
-                                .begun = begun,
-                                .here = begun.empty() && exists(dir / "chapter.dox") && exists(dir / "main.cpp")});
+            chapters.push_back(
+                {.number = static_cast<int>(chapters.size()) + 1,
+                 .folder = folder,
+                 .title = entry.at("title"),
+                 .teaches = entry.at("teaches"),
+                 .sources = entry.at("sources"),
+                 .begun = begun,
+                 .here = begun.empty() && exists(dir / "chapter.dox") && exists(dir / "main.cpp")});
         }
         return chapters;
     });
@@ -73,34 +75,40 @@ Answers read_answers(const std::filesystem::path& file) {
     });
 }
 
-std::vector<std::string> faults(const std::vector<Claim>& claims, int chapter, const Answers& answers) {
+std::vector<std::string> faults(const std::vector<Claim>& claims, int chapter,
+                                const Answers& answers) {
     std::vector<std::string> lines;
     for (const Claim& claim : claims) {
         if (std::ranges::find(claim.chapters, chapter) == claim.chapters.end()) continue;
         const auto count = std::ranges::count(answers.answers, claim.id, &Answer::claim);
-        if (count == 0) lines.push_back(fmt::format("claim {} has no answer: {}", claim.id, claim.text));
-        if (count > 1) lines.push_back(fmt::format("claim {} is answered {} times", claim.id, count));
+        if (count == 0)
+            lines.push_back(fmt::format("claim {} has no answer: {}", claim.id, claim.text));
+        if (count > 1)
+            lines.push_back(fmt::format("claim {} is answered {} times", claim.id, count));
     }
     for (const Answer& answer : answers.answers) {
         const auto claim = std::ranges::find(claims, answer.claim, &Claim::id);
         if (claim == claims.end())
-            lines.push_back(fmt::format("answer to {}: no source makes a claim of that id", answer.claim));
+            lines.push_back(
+                fmt::format("answer to {}: no source makes a claim of that id", answer.claim));
         else if (std::ranges::find(claim->chapters, chapter) == claim->chapters.end())
-            lines.push_back(fmt::format("answer to {}: that claim belongs to chapter {}", answer.claim,
-                                        fmt::join(claim->chapters, ", ")));
+            lines.push_back(fmt::format("answer to {}: that claim belongs to chapter {}",
+                                        answer.claim, fmt::join(claim->chapters, ", ")));
         constexpr std::array verdicts{"confirmed", "refuted", "depends"};
         if (std::ranges::find(verdicts, answer.verdict) == verdicts.end())
-            lines.push_back(fmt::format("answer to {}: \"{}\" is no verdict", answer.claim, answer.verdict));
-        for (const auto& [field, value] :
-             {std::pair{"measured", &answer.measured}, {"scene", &answer.scene}, {"rule", &answer.rule}})
+            lines.push_back(
+                fmt::format("answer to {}: \"{}\" is no verdict", answer.claim, answer.verdict));
+        for (const auto& [field, value] : {std::pair{"measured", &answer.measured},
+                                           {"scene", &answer.scene},
+                                           {"rule", &answer.rule}})
             if (value->find_first_not_of(" \t\n") == std::string::npos)
                 lines.push_back(fmt::format("answer to {}: \"{}\" is empty", answer.claim, field));
     }
     return lines;
 }
 
-std::filesystem::path newest_results(const std::filesystem::path& root, const std::filesystem::path& runs,
-                                     int chapter) {
+std::filesystem::path newest_results(const std::filesystem::path& root,
+                                     const std::filesystem::path& runs, int chapter) {
     const auto committed = root / fmt::format("figures/measured/ch{:02}_results.json", chapter);
     const auto own = runs / fmt::format("ch{:02}/results.json", chapter);
     const bool own_counts = exists(own) && !read_answers(own).small;  // --small has no times

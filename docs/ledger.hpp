@@ -1,5 +1,6 @@
 /// @file
-/// The ledger of claims: what the sources say (docs/claims.json), and what the chapters' programs measured.
+/// The ledger of claims: what the sources say (docs/claims.json), and what the chapters' programs
+/// measured.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,8 @@ struct Chapter {
     std::string folder;  ///< "ch01_naive_ray_tracing"; also the id of its page
     std::string title, teaches;
     std::vector<std::string> sources;
-    std::string begun;  ///< what stands of a chapter that is to come: it has a page, but owes no answers yet
+    std::string begun;  ///< what stands of a chapter that is to come: it has a page, but owes no
+                        ///< answers yet
     bool here;          ///< its text and its program stand
 };
 
@@ -45,12 +47,15 @@ std::vector<Chapter> read_chapters(const std::filesystem::path& root);
 std::vector<Claim> read_claims(const std::filesystem::path& file);
 Answers read_answers(const std::filesystem::path& file);
 
-/// What is wrong with a chapter's answers, a line each: a claim of the chapter without an answer or with two, an
-/// answer to a claim of no such id or of another chapter, a verdict that is none of the three, an empty field.
-std::vector<std::string> faults(const std::vector<Claim>& claims, int chapter, const Answers& answers);
+/// What is wrong with a chapter's answers, a line each: a claim of the chapter without an answer or
+/// with two, an answer to a claim of no such id or of another chapter, a verdict that is none of
+/// the three, an empty field.
+std::vector<std::string> faults(const std::vector<Claim>& claims, int chapter,
+                                const Answers& answers);
 
-/// The newer of two results files that are there: the committed one (figures/measured) and that of the reader's own
-/// full run (runs/chNN/results.json). Empty where there is none.
-std::filesystem::path newest_results(const std::filesystem::path& root, const std::filesystem::path& runs, int chapter);
+/// The newer of two results files that are there: the committed one (figures/measured) and that of
+/// the reader's own full run (runs/chNN/results.json). Empty where there is none.
+std::filesystem::path newest_results(const std::filesystem::path& root,
+                                     const std::filesystem::path& runs, int chapter);
 
 }  // namespace space::docs

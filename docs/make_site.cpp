@@ -1,19 +1,19 @@
-/// Makes the book as a web site: writes the generated pages, runs Doxygen, finishes its pages, adds MathJax.
-/// Run   make_site --out build/book/site
-#include <fmt/format.h>
-
-#include <array>
-#include <CLI/CLI.hpp>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-
+/// Makes the book as a web site: writes the generated pages, runs Doxygen, finishes its pages, adds
+/// MathJax. Run   make_site --out build/book/site
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/options.hpp"
 #include "docs/finish.hpp"
 #include "docs/pages.hpp"
 #include "docs/search_text.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 
 namespace {
 
@@ -37,26 +37,31 @@ void copy_mathjax(const fs::path& from, const fs::path& to) {
 
 /// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
 void run_doxygen(const fs::path& work, const fs::path& site) {
-    const std::string settings = read_file(fs::path(BOOK_DOXYFILE)) +
-                                 fmt::format(
-                                     "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nEXAMPLE_PATH += \"{0}\"\n"
-                                     "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
-                                     work.string(), site.string());
+    const std::string settings =
+        read_file(fs::path(BOOK_DOXYFILE)) +
+        fmt::format(
+            "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nEXAMPLE_PATH += \"{0}\"\n"
+            "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
+            work.string(), site.string());
     write_file(work / "Doxyfile", settings);
     fs::create_directories(site);
-    const std::string command = fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, (work / "Doxyfile").string());
+    const std::string command =
+        fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, (work / "Doxyfile").string());
     if (std::system(command.c_str()) != 0)
         throw input_error("Doxygen has warnings or failed; its lines above say where");
 }
 
 int make_site(int argc, char** argv) {
-    docs::Places places{
-        .root = BOOK_ROOT, .configured = BOOK_CONFIGURED, .runs = fs::path(BOOK_ROOT) / "build/book", .pages = {}};
+    docs::Places places{.root = BOOK_ROOT,
+                        .configured = BOOK_CONFIGURED,
+                        .runs = fs::path(BOOK_ROOT) / "build/book",
+                        .pages = {}};
     fs::path site = places.configured / "site";
     CLI::App app("Makes the book as a web site that opens from a local file.", "make_site");
     app.add_option("--out", site, "folder of the site; replaced as a whole")->capture_default_str();
-    app.add_option("--runs", places.runs,
-                   "what ./book run wrote; newer figures and results than the committed ones are shown")
+    app.add_option(
+           "--runs", places.runs,
+           "what ./book run wrote; newer figures and results than the committed ones are shown")
         ->capture_default_str();
     parse_command_line(app, argc, argv);
 

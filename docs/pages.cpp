@@ -1,19 +1,19 @@
 #include "docs/pages.hpp"
 
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "docs/ledger.hpp"
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
 #include <regex>
 #include <sstream>
 #include <vector>
-
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
-#include "docs/ledger.hpp"
 
 namespace space::docs {
 namespace {
@@ -45,9 +45,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 fs::path newest_figure(const Places& places, const Figure& figure) {
     const std::string name = figure.id + (figure.kind == "rendering" ? ".png" : ".svg");
     const fs::path own = places.runs / figure.chapter.substr(0, 4) / name;
-    for (const fs::path& committed : {places.root / "figures" / name, places.root / "figures/measured" / name})
+    for (const fs::path& committed :
+         {places.root / "figures" / name, places.root / "figures/measured" / name})
         if (exists(committed))
-            return exists(own) && last_write_time(own) > last_write_time(committed) ? own : committed;
+            return exists(own) && last_write_time(own) > last_write_time(committed) ? own
+                                                                                    : committed;
     return exists(own) ? own : fs::path{};
 }
 
@@ -77,11 +79,12 @@ Exercise read_exercise(const Places& places, const std::string& chapter, const s
     static const std::regex title(R"(/// Exercise (\d+\.\d+): (.+))");
     static const std::regex effort(R"(/// Difficulty (\d) of 3, about (\d+) minutes\.)");
     std::smatch first, second;
-    if (lines.size() < 3 || !std::regex_match(lines[1], first, title) || !std::regex_match(lines[2], second, effort))
-        throw input_error(
-            fmt::format("{}:2: expected \"/// Exercise N.M: title\" and then \"/// Difficulty D of 3, "
-                        "about M minutes.\"",
-                        stub.string()));
+    if (lines.size() < 3 || !std::regex_match(lines[1], first, title) ||
+        !std::regex_match(lines[2], second, effort))
+        throw input_error(fmt::format(
+            "{}:2: expected \"/// Exercise N.M: title\" and then \"/// Difficulty D of 3, "
+            "about M minutes.\"",
+            stub.string()));
     Exercise exercise{.chapter = chapter,
                       .name = name,
                       .id = first[1],
@@ -98,7 +101,8 @@ std::vector<Exercise> read_exercises(const Places& places) {
     std::vector<Exercise> exercises;
     for (const std::string& line : lines_of(read_file(places.configured / "exercises.txt")))
         if (const std::size_t slash = line.find('/'); slash != std::string::npos)
-            exercises.push_back(read_exercise(places, line.substr(0, slash), line.substr(slash + 1)));
+            exercises.push_back(
+                read_exercise(places, line.substr(0, slash), line.substr(slash + 1)));
     return exercises;
 }
 
@@ -108,7 +112,8 @@ std::optional<std::string> page_id(const fs::path& file) {
     static const std::regex page(R"([\\@]page\s+(\S+))");
     const std::string text = read_file(file);
     std::smatch match;
-    if (!std::regex_search(text, match, page)) throw input_error(fmt::format("{}: no \\page in it", file.string()));
+    if (!std::regex_search(text, match, page))
+        throw input_error(fmt::format("{}: no \\page in it", file.string()));
     return match[1].str();
 }
 
@@ -122,7 +127,8 @@ std::string page_title(const fs::path& file) {
     static const std::regex page(R"([\\@]page\s+\S+\s+(.+))");
     const std::string text = read_file(file);
     std::smatch match;
-    if (!std::regex_search(text, match, page)) throw input_error(fmt::format("{}: its \\page has no title", file.string()));
+    if (!std::regex_search(text, match, page))
+        throw input_error(fmt::format("{}: its \\page has no title", file.string()));
     return match[1].str();
 }
 
@@ -130,7 +136,8 @@ std::string page_title(const fs::path& file) {
 std::vector<fs::path> further_pages(const Places& places, const Chapter& chapter) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(places.root / "chapters" / chapter.folder))
-        if (entry.path().extension() == ".dox" && entry.path().filename() != "chapter.dox") files.push_back(entry.path());
+        if (entry.path().extension() == ".dox" && entry.path().filename() != "chapter.dox")
+            files.push_back(entry.path());
     std::ranges::sort(files);
     return files;
 }
@@ -152,21 +159,27 @@ std::string source_links(const std::vector<std::string>& sources) {
 }
 
 std::string chapter_table(const Places& places, const std::vector<Chapter>& chapters,
-                          const std::vector<Figure>& figures, const std::vector<Exercise>& exercises,
+                          const std::vector<Figure>& figures,
+                          const std::vector<Exercise>& exercises,
                           const std::vector<Claim>& claims) {
     std::string rows;
     for (const Chapter& chapter : chapters) {
         const auto owed = std::ranges::count_if(claims, [&](const Claim& claim) {
             return std::ranges::find(claim.chapters, chapter.number) != claim.chapters.end();
         });
-        std::string title = html(chapter.title), state = chapter.begun.empty() ? "to come" : chapter.begun;
-        if (const auto page = page_id(places, chapter)) title = fmt::format("<a href=\"{}.html\">{}</a>", *page, title);
+        std::string title = html(chapter.title),
+                    state = chapter.begun.empty() ? "to come" : chapter.begun;
+        if (const auto page = page_id(places, chapter))
+            title = fmt::format("<a href=\"{}.html\">{}</a>", *page, title);
         if (chapter.here)
             state = fmt::format(
-                "<a href=\"figures.html#figures_{0}\">{1}</a> <a href=\"exercises.html#exercises_{0}\">{2}</a> "
+                "<a href=\"figures.html#figures_{0}\">{1}</a> <a "
+                "href=\"exercises.html#exercises_{0}\">{2}</a> "
                 "<a href=\"ledger.html#claims_{0}\">{3}</a>",
-                chapter.folder, plural(std::ranges::count(figures, chapter.folder, &Figure::chapter), "figure"),
-                plural(std::ranges::count(exercises, chapter.folder, &Exercise::chapter), "exercise"),
+                chapter.folder,
+                plural(std::ranges::count(figures, chapter.folder, &Figure::chapter), "figure"),
+                plural(std::ranges::count(exercises, chapter.folder, &Exercise::chapter),
+                       "exercise"),
                 plural(owed, "claim"));
         rows += fmt::format(
             "<li class=\"{}\"><span class=\"number\">{}</span><div><b>{}</b><p>{}</p></div><span "
@@ -176,33 +189,40 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
     return raw("<ol class=\"chapters\">\n" + rows + "</ol>\n");
 }
 
-std::string exercises_page(const std::vector<Chapter>& chapters, const std::vector<Exercise>& exercises) {
+std::string exercises_page(const std::vector<Chapter>& chapters,
+                           const std::vector<Exercise>& exercises) {
     std::string text =
         "/*! \\page exercises Exercises\n\\tableofcontents{HTML:2}\n"
-        "Each exercise is one small header of the book with something wrong or missing. It compiles as it stands. "
+        "Each exercise is one small header of the book with something wrong or missing. It "
+        "compiles as it stands. "
         "Change it until its check agrees:\n\n"
         "- `./book exercise` lists all exercises, and which of them are solved;\n"
-        "- `./book exercise check 1.1` compiles and checks yours; a failed check says what it expected;\n"
+        "- `./book exercise check 1.1` compiles and checks yours; a failed check says what it "
+        "expected;\n"
         "- `./book exercise hint 1.1` gives the first hint, then the second, then the third;\n"
         "- `./book exercise solution 1.1` shows a solution;\n"
         "- `./book exercise reset 1.1` puts the untouched file back.\n\n"
         "Checks count and compare; none of them measures time.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(exercises, chapter.folder, &Exercise::chapter) == 0) continue;
-        text += fmt::format("\\section exercises_{} Chapter {}: {}\n\n", chapter.folder, chapter.number, chapter.title);
+        text += fmt::format("\\section exercises_{} Chapter {}: {}\n\n", chapter.folder,
+                            chapter.number, chapter.title);
         for (const Exercise& exercise : exercises) {
             if (exercise.chapter != chapter.folder) continue;
             std::string dots;
             for (int i = 1; i <= 3; ++i) dots += i <= exercise.difficulty ? "●" : "○";
             std::string anchor = exercise.id;
             std::ranges::replace(anchor, '.', '_');
-            text += fmt::format("\\subsection exercise_{} {} {}\n", anchor, exercise.id, exercise.title);
-            text += raw(
-                fmt::format("<p class=\"effort\"><span title=\"difficulty {} of 3\">{}</span> about {} minutes</p>\n",
-                            exercise.difficulty, dots, exercise.minutes));
+            text += fmt::format("\\subsection exercise_{} {} {}\n", anchor, exercise.id,
+                                exercise.title);
+            text +=
+                raw(fmt::format("<p class=\"effort\"><span title=\"difficulty {} of 3\">{}</span> "
+                                "about {} minutes</p>\n",
+                                exercise.difficulty, dots, exercise.minutes));
             text += exercise.task + "\n";
-            text += fmt::format("Edit `chapters/{}/exercises/{}.hpp`, then run\n\n    ./book exercise check {}\n\n",
-                                exercise.chapter, exercise.name, exercise.id);
+            text += fmt::format(
+                "Edit `chapters/{}/exercises/{}.hpp`, then run\n\n    ./book exercise check {}\n\n",
+                exercise.chapter, exercise.name, exercise.id);
         }
     }
     return text + "*/\n";
@@ -211,21 +231,28 @@ std::string exercises_page(const std::vector<Chapter>& chapters, const std::vect
 std::string figures_page(const std::vector<Chapter>& chapters, const std::vector<Figure>& figures) {
     std::string text =
         "/*! \\page figures Figures\n\\tableofcontents{HTML:1}\n"
-        "Every figure of the book is made by a program of the book: drawings are the algorithms' own output, charts "
+        "Every figure of the book is made by a program of the book: drawings are the algorithms' "
+        "own output, charts "
         "are "
-        "drawn from measurements. One command makes a figure again:\n\n    ./book figures fig_01_01\n\n"
-        "A drawing is an SVG file that follows light and dark pages; a chart comes with its data.\n\n";
+        "drawn from measurements. One command makes a figure again:\n\n    ./book figures "
+        "fig_01_01\n\n"
+        "A drawing is an SVG file that follows light and dark pages; a chart comes with its "
+        "data.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(figures, chapter.folder, &Figure::chapter) == 0) continue;
-        text += fmt::format("\\section figures_{} Chapter {}: {}\n\n", chapter.folder, chapter.number, chapter.title);
+        text += fmt::format("\\section figures_{} Chapter {}: {}\n\n", chapter.folder,
+                            chapter.number, chapter.title);
         for (const Figure& figure : figures) {
             if (figure.chapter != chapter.folder) continue;
             const std::string extension = figure.kind == "rendering" ? "png" : "svg";
-            const std::string caption = std::regex_replace(figure.caption, std::regex("\""), "\\\"");
+            const std::string caption =
+                std::regex_replace(figure.caption, std::regex("\""), "\\\"");
             text += fmt::format("\\image html {}.{} \"{}\"\n", figure.id, extension, caption);
-            std::string links = fmt::format("<code>{0}</code> {1} <a href=\"{0}.{2}\" download>{3}</a>", figure.id,
-                                            figure.kind, extension, extension == "svg" ? "SVG" : "PNG");
-            if (figure.kind == "chart") links += fmt::format(" <a href=\"{}.csv\" download>CSV</a>", figure.id);
+            std::string links =
+                fmt::format("<code>{0}</code> {1} <a href=\"{0}.{2}\" download>{3}</a>", figure.id,
+                            figure.kind, extension, extension == "svg" ? "SVG" : "PNG");
+            if (figure.kind == "chart")
+                links += fmt::format(" <a href=\"{}.csv\" download>CSV</a>", figure.id);
             text += raw("<p class=\"figure-links\">" + links + "</p>\n");
         }
     }
@@ -234,7 +261,10 @@ std::string figures_page(const std::vector<Chapter>& chapters, const std::vector
 
 /// A verdict in a sign, a word and (by its class) a colour.
 std::string badge(const std::string& verdict) {
-    const char* sign = verdict == "confirmed" ? "✓" : verdict == "refuted" ? "✗" : verdict == "depends" ? "◐" : "○";
+    const char* sign = verdict == "confirmed" ? "✓"
+                       : verdict == "refuted" ? "✗"
+                       : verdict == "depends" ? "◐"
+                                              : "○";
     return fmt::format("<span class=\"verdict {}\"><span aria-hidden=\"true\">{}</span> {}</span>",
                        verdict == "no answer yet" ? "open" : verdict, sign, verdict);
 }
@@ -242,40 +272,51 @@ std::string badge(const std::string& verdict) {
 std::string claim_card(const Claim& claim, const Answer* answer) {
     const std::string note = claim.note.empty() ? "" : ", " + html(claim.note);
     std::string card = fmt::format(
-        "<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p class=\"says\">{}</p>\n",
+        "<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p "
+        "class=\"says\">{}</p>\n",
         answer ? answer->verdict : "open", claim.id, source_links({claim.source}), note,
         badge(answer ? answer->verdict : "no answer yet"), html(claim.text));
     if (answer)
-        card += fmt::format("<dl><dt>Measured</dt><dd>{}</dd><dt>Scene</dt><dd>{}</dd><dt>Rule</dt><dd>{}</dd></dl>\n",
-                            html(answer->measured), html(answer->scene), html(answer->rule));
+        card += fmt::format(
+            "<dl><dt>Measured</dt><dd>{}</dd><dt>Scene</dt><dd>{}</dd><dt>Rule</dt><dd>{}</dd></"
+            "dl>\n",
+            html(answer->measured), html(answer->scene), html(answer->rule));
     return fmt::format("\\anchor claim_{}\n{}", claim.id, raw(card + "</div>\n"));
 }
 
-std::string ledger_page(const Places& places, const std::vector<Chapter>& chapters, const std::vector<Claim>& claims) {
+std::string ledger_page(const Places& places, const std::vector<Chapter>& chapters,
+                        const std::vector<Claim>& claims) {
     std::string sections, to_come;
     std::map<std::string, std::string> verdicts;  // of the claims that have one
     for (const Chapter& chapter : chapters) {
         std::vector<const Claim*> mine;
         for (const Claim& claim : claims)
-            if (std::ranges::find(claim.chapters, chapter.number) != claim.chapters.end()) mine.push_back(&claim);
+            if (std::ranges::find(claim.chapters, chapter.number) != claim.chapters.end())
+                mine.push_back(&claim);
         if (mine.empty()) continue;
         if (!chapter.here) {
-            to_come += fmt::format("<tr class=\"group\"><th colspan=\"3\">Chapter {}: {}</th></tr>\n", chapter.number,
-                                   html(chapter.title));
+            to_come +=
+                fmt::format("<tr class=\"group\"><th colspan=\"3\">Chapter {}: {}</th></tr>\n",
+                            chapter.number, html(chapter.title));
             for (const Claim* claim : mine)
                 to_come += fmt::format(
-                    "<tr><td id=\"claim_{0}_{1}\">{0}</td><td>{2}{3}{4}</td><td>{5}</td></tr>\n", claim->id,
-                    chapter.number, html(claim->text), claim->how.empty() ? "" : "; " + html(claim->how),
-                    claim->note.empty() ? "" : " (" + html(claim->note) + ")", source_links({claim->source}));
+                    "<tr><td id=\"claim_{0}_{1}\">{0}</td><td>{2}{3}{4}</td><td>{5}</td></tr>\n",
+                    claim->id, chapter.number, html(claim->text),
+                    claim->how.empty() ? "" : "; " + html(claim->how),
+                    claim->note.empty() ? "" : " (" + html(claim->note) + ")",
+                    source_links({claim->source}));
             continue;
         }
         Answers answers;
-        if (const fs::path file = newest_results(places.root, places.runs, chapter.number); !file.empty())
+        if (const fs::path file = newest_results(places.root, places.runs, chapter.number);
+            !file.empty())
             answers = read_answers(file);
-        sections += fmt::format("\\section claims_{} Chapter {}: {}\n", chapter.folder, chapter.number, chapter.title);
-        sections += raw(answers.machine.empty() ? "<p class=\"machine\">Not measured yet.</p>\n"
-                                                : fmt::format("<p class=\"machine\">Measured on {}, on {}.</p>\n",
-                                                              html(answers.machine), html(answers.date)));
+        sections += fmt::format("\\section claims_{} Chapter {}: {}\n", chapter.folder,
+                                chapter.number, chapter.title);
+        sections += raw(answers.machine.empty()
+                            ? "<p class=\"machine\">Not measured yet.</p>\n"
+                            : fmt::format("<p class=\"machine\">Measured on {}, on {}.</p>\n",
+                                          html(answers.machine), html(answers.date)));
         for (const Claim* claim : mine) {
             const auto answer = std::ranges::find(answers.answers, claim->id, &Answer::claim);
             const bool answered = answer != answers.answers.end();
@@ -285,39 +326,50 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
     }
     std::string text =
         "/*! \\page ledger Claims and verdicts\n\\tableofcontents{HTML:1}\n"
-        "The sources of this book make claims and print numbers. Each chapter's program answers those that belong to "
+        "The sources of this book make claims and print numbers. Each chapter's program answers "
+        "those that belong to "
         "it "
-        "with what it measured, and computes the verdict by a rule that is stated here; no verdict is typed in. "
+        "with what it measured, and computes the verdict by a rule that is stated here; no verdict "
+        "is typed in. "
         "The sources: \\ref bibliography.\n\n";
     std::string tally;
     for (const char* verdict : {"confirmed", "refuted", "depends"})
-        tally += fmt::format("<p>{} {}</p>", std::ranges::count(std::views::values(verdicts), verdict), badge(verdict));
-    text += raw(fmt::format("<div class=\"tally\">{}<p>{} {}</p></div>\n", tally, claims.size() - verdicts.size(),
-                            badge("no answer yet")));
+        tally +=
+            fmt::format("<p>{} {}</p>", std::ranges::count(std::views::values(verdicts), verdict),
+                        badge(verdict));
+    text += raw(fmt::format("<div class=\"tally\">{}<p>{} {}</p></div>\n", tally,
+                            claims.size() - verdicts.size(), badge("no answer yet")));
     text += sections;
     if (!to_come.empty())
         text += "\\section claims_to_come Chapters to come\n" +
-                raw("<div class=\"scroll\"><table class=\"doxtable to-come\">\n" + to_come + "</table></div>\n");
+                raw("<div class=\"scroll\"><table class=\"doxtable to-come\">\n" + to_come +
+                    "</table></div>\n");
     return text + "*/\n";
 }
 
 std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
     const auto tab = [](const std::string& page, const std::string& title) {
-        return fmt::format("      <tab type=\"user\" visible=\"yes\" url=\"@ref {}\" title=\"{}\"/>\n", page,
-                           html(title));
+        return fmt::format(
+            "      <tab type=\"user\" visible=\"yes\" url=\"@ref {}\" title=\"{}\"/>\n", page,
+            html(title));
     };
     std::string menu;
     for (const Chapter& chapter : chapters)
         if (const auto page = page_id(places, chapter)) {
             menu += tab(*page, fmt::format("{}. {}", chapter.number, chapter.title));
             for (const fs::path& more : further_pages(places, chapter))
-                menu += tab(*page_id(more), fmt::format("{}. {}", chapter.number, page_title(more)));
+                menu +=
+                    tab(*page_id(more), fmt::format("{}. {}", chapter.number, page_title(more)));
         }
-    menu += tab("exercises", "Exercises") + tab("figures", "Figures") + tab("ledger", "Claims and verdicts");
-    for (const auto& [file, title] : {std::pair{"glossary.dox", "Glossary"}, {"bibliography.dox", "Bibliography"}})
+    menu += tab("exercises", "Exercises") + tab("figures", "Figures") +
+            tab("ledger", "Claims and verdicts");
+    for (const auto& [file, title] :
+         {std::pair{"glossary.dox", "Glossary"}, {"bibliography.dox", "Bibliography"}})
         if (const auto page = page_id(places.root / "docs" / file)) menu += tab(*page, title);
-    if (exists(places.root / "docs/adding_a_chapter.md")) menu += tab("adding_a_chapter", "Adding a chapter");
-    return "<doxygenlayout version=\"1.0\">\n  <navindex>\n    <tab type=\"mainpage\" visible=\"yes\" title=\"The "
+    if (exists(places.root / "docs/adding_a_chapter.md"))
+        menu += tab("adding_a_chapter", "Adding a chapter");
+    return "<doxygenlayout version=\"1.0\">\n  <navindex>\n    <tab type=\"mainpage\" "
+           "visible=\"yes\" title=\"The "
            "book\"/>\n" +
            menu +
            "    <tab type=\"usergroup\" visible=\"yes\" url=\"[none]\" title=\"Code\">\n"
@@ -356,7 +408,9 @@ void write_pages(const Places& places) {
     const auto claims = read_claims(places.root / "docs/claims.json");
     const auto figures = read_figures(places);
     const auto exercises = read_exercises(places);
-    const auto write = [&](const char* name, const std::string& text) { write_file(places.pages / name, text); };
+    const auto write = [&](const char* name, const std::string& text) {
+        write_file(places.pages / name, text);
+    };
     write("chapter_table.inc", chapter_table(places, chapters, figures, exercises, claims));
     write("exercises.dox", exercises_page(chapters, exercises));
     write("figures.dox", figures_page(chapters, figures));

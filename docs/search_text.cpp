@@ -1,13 +1,14 @@
 #include "docs/search_text.hpp"
 
+#include "common/program/file.hpp"
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <string_view>
-
-#include "common/program/file.hpp"
 
 namespace space::docs {
 namespace {
@@ -24,18 +25,19 @@ std::string_view between(std::string_view text, std::string_view open, std::stri
 std::string visible_text(std::string_view markup) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 3> hidden{
         {{"<svg", "</svg>"}, {"<span class=\"permalink\">", "</span>"}, {"<!--", "-->"}}};
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> entities{{{"\\(", ""},
-                                                                                      {"\\)", ""},
-                                                                                      {"\\[", ""},
-                                                                                      {"\\]", ""},  // a formula's ends
-                                                                                      {"&lt;", "<"},
-                                                                                      {"&gt;", ">"},
-                                                                                      {"&amp;", "&"},
-                                                                                      {"&quot;", "\""},
-                                                                                      {"&#39;", "'"},
-                                                                                      {"&#160;", " "},
-                                                                                      {"&nbsp;", " "},
-                                                                                      {"&ndash;", "–"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> entities{
+        {{"\\(", ""},
+         {"\\)", ""},
+         {"\\[", ""},
+         {"\\]", ""},  // a formula's ends
+         {"&lt;", "<"},
+         {"&gt;", ">"},
+         {"&amp;", "&"},
+         {"&quot;", "\""},
+         {"&#39;", "'"},
+         {"&#160;", " "},
+         {"&nbsp;", " "},
+         {"&ndash;", "–"}}};
     std::string text;
     const auto space = [&] {
         if (!text.empty() && text.back() != ' ') text += ' ';
@@ -87,8 +89,8 @@ std::vector<SearchEntry> search_entries(const std::string& page, const std::stri
     for (;;) {
         std::match_results<std::string_view::const_iterator> found;
         const bool more = std::regex_search(rest.begin(), rest.end(), found, heading);
-        entries.back().text +=
-            visible_text(rest.substr(0, more ? static_cast<std::size_t>(found.position()) : rest.npos));
+        entries.back().text += visible_text(
+            rest.substr(0, more ? static_cast<std::size_t>(found.position()) : rest.npos));
         if (!more) return entries;
         rest.remove_prefix(static_cast<std::size_t>(found.position()));
         const std::string_view element = rest.substr(0, rest.find("</h"));
@@ -97,8 +99,10 @@ std::vector<SearchEntry> search_entries(const std::string& page, const std::stri
         const bool a_section = element.find("groupheader") == element.npos &&
                                std::regex_search(element.begin(), element.end(), id, anchor);
         if (a_section)
-            entries.push_back(
-                {.page = title, .title = visible_text(element), .url = file_name + "#" + id[2].str(), .text = {}});
+            entries.push_back({.page = title,
+                               .title = visible_text(element),
+                               .url = file_name + "#" + id[2].str(),
+                               .text = {}});
     }
 }
 
@@ -109,7 +113,8 @@ void write_search_text(const std::filesystem::path& site) {
     static const std::regex code(R"((class|struct|concept|namespace|union).*|.*_8[ch]pp)");
     std::set<std::filesystem::path> pages;  // in the order of their names
     for (const auto& entry : std::filesystem::directory_iterator(site))
-        if (entry.path().extension() == ".html" && !std::regex_match(entry.path().stem().string(), no_text))
+        if (entry.path().extension() == ".html" &&
+            !std::regex_match(entry.path().stem().string(), no_text))
             pages.insert(entry.path());
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const auto& page : pages)

@@ -1,15 +1,15 @@
 /// @file
-/// The three coordinate systems of a picture and the maps that tie them (Heinonen16, section 2.1). An object is
-/// modelled in its own *local* coordinates, placed in the scene's *world* coordinates, and seen in the *camera*'s,
-/// whose origin is the eye. All maps are computed in double.
+/// The three coordinate systems of a picture and the maps that tie them (Heinonen16, section 2.1).
+/// An object is modelled in its own *local* coordinates, placed in the scene's *world* coordinates,
+/// and seen in the *camera*'s, whose origin is the eye. All maps are computed in double.
 #pragma once
+
+#include "common/camera.hpp"
+#include "common/mesh.hpp"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
-
-#include "common/camera.hpp"
-#include "common/mesh.hpp"
 
 namespace space {
 
@@ -37,13 +37,15 @@ struct Placement {
 /// M = T R S: scaled first, then turned, then moved.
 inline Map local_to_world(const Placement& placement) {
     const Map identity(1.0);
-    return glm::translate(identity, placement.translation) * glm::rotate(identity, placement.angle, placement.axis) *
+    return glm::translate(identity, placement.translation) *
+           glm::rotate(identity, placement.angle, placement.axis) *
            glm::scale(identity, placement.scale);
 }
 // [local_to_world]
 
-/// The mesh with every vertex mapped, rounded to float once. A map that mirrors (negative determinant) would turn the
-/// front sides inwards; the faces' vertex order is reversed to keep them.
+/// The mesh with every vertex mapped, rounded to float once. A map that mirrors (negative
+/// determinant) would turn the front sides inwards; the faces' vertex order is reversed to keep
+/// them.
 inline TriangleMesh mapped(const Map& map, TriangleMesh mesh) {
     for (Point3& vertex : mesh.vertices) vertex = Point3(map_point(map, Double3(vertex)));
     if (glm::determinant(map) < 0.0)
@@ -59,22 +61,27 @@ inline Map camera_to_world(const Camera& camera) {
             glm::dvec4(Double3(camera.eye), 1.0)};
 }
 
-/// The inverse. The camera's axes are orthonormal, so each camera coordinate is a dot product with one of them. The eye
-/// is subtracted first: close to a far-away eye nothing cancels later.
-inline Double3 world_to_camera(const Camera& camera, const CameraFrame& frame, const Double3& point) {
+/// The inverse. The camera's axes are orthonormal, so each camera coordinate is a dot product with
+/// one of them. The eye is subtracted first: close to a far-away eye nothing cancels later.
+inline Double3 world_to_camera(const Camera& camera, const CameraFrame& frame,
+                               const Double3& point) {
     const Double3 from_eye = point - Double3(camera.eye);
-    return {glm::dot(frame.right, from_eye), glm::dot(frame.up, from_eye), glm::dot(frame.back, from_eye)};
+    return {glm::dot(frame.right, from_eye), glm::dot(frame.up, from_eye),
+            glm::dot(frame.back, from_eye)};
 }
 
-/// Distance of a camera point from the eye's plane, along the view direction: positive in front of the eye.
+/// Distance of a camera point from the eye's plane, along the view direction: positive in front of
+/// the eye.
 inline double depth(const Double3& camera_point) {
     return -camera_point.z;
 }
 
-/// The place in the picture, in pixels from its top left corner, where a point in front of the eye is seen: divided by
-/// its depth it lies on the image plane at distance 1, which is then stretched to width x height pixels. The inverse of
-/// camera_ray (common/camera.hpp): camera_ray(pixel) passes through the point.
-inline glm::dvec2 camera_to_pixel(const CameraFrame& frame, const Double3& camera_point, int width, int height) {
+/// The place in the picture, in pixels from its top left corner, where a point in front of the eye
+/// is seen: divided by its depth it lies on the image plane at distance 1, which is then stretched
+/// to width x height pixels. The inverse of camera_ray (common/camera.hpp): camera_ray(pixel)
+/// passes through the point.
+inline glm::dvec2 camera_to_pixel(const CameraFrame& frame, const Double3& camera_point, int width,
+                                  int height) {
     const double pixels_per_unit = 0.5 * height / frame.tan_half_fov;
     return {0.5 * width + pixels_per_unit * camera_point.x / depth(camera_point),
             0.5 * height - pixels_per_unit * camera_point.y / depth(camera_point)};

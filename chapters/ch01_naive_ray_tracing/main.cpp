@@ -1,16 +1,15 @@
-/// Chapter 1: naive ray tracing, Heinonen16's Algorithm 1 as printed and corrected, beside a rasteriser.
-/// Run   ch01_naive_ray_tracing --scene room --out pictures
-/// Draw  ch01_naive_ray_tracing --figure fig_01_03 --out figures
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-
+/// Chapter 1: naive ray tracing, Heinonen16's Algorithm 1 as printed and corrected, beside a
+/// rasteriser. Run   ch01_naive_ray_tracing --scene room --out pictures Draw ch01_naive_ray_tracing
+/// --figure fig_01_03 --out figures
 #include "chapters/ch01_naive_ray_tracing/figures/figures.hpp"
 #include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/report.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace space::ch01 {
 namespace {
@@ -28,48 +27,57 @@ ChapterOptions read_options(int argc, char** argv) {
         app.footer(
             "Examples:\n"
             "  ch01_naive_ray_tracing --out pictures             the chapter, in two minutes\n"
-            "  ch01_naive_ray_tracing --quick --scene soup:500   another scene, fewer measurements\n"
+            "  ch01_naive_ray_tracing --quick --scene soup:500   another scene, fewer "
+            "measurements\n"
             "  ch01_naive_ray_tracing --scene bunny --size 60x45 --samples 1\n"
             "  ch01_naive_ray_tracing --figure all --out figures");
     };
-    ChapterOptions options{parse_options(argc, argv,
-                                         {.name = "ch01_naive_ray_tracing",
-                                          .about = "Chapter 1: naive ray tracing, wrong and right, beside a rasteriser",
-                                          .defaults = {.scene = "room:3", .width = 240, .height = 180}},
-                                         add_samples)};
+    ChapterOptions options{parse_options(
+        argc, argv,
+        {.name = "ch01_naive_ray_tracing",
+         .about = "Chapter 1: naive ray tracing, wrong and right, beside a rasteriser",
+         .defaults = {.scene = "room:3", .width = 240, .height = 180}},
+        add_samples)};
     if (options.small) options.width = 32, options.height = 24;
     options.samples = samples ? samples : options.quick || options.small ? 1 : 2;
     return options;
 }
 
-/// The same scene three times: by Algorithm 1 as it should be, as it is printed, and by the rasteriser.
+/// The same scene three times: by Algorithm 1 as it should be, as it is printed, and by the
+/// rasteriser.
 void draw_pictures(const ChapterOptions& options) {
     // [pictures]
     const Scene scene = make_scene(options.scene, options.seed, options.small);
-    const RenderSettings settings{
-        .width = options.width, .height = options.height, .samples = options.samples, .threads = options.threads};
+    const RenderSettings settings{.width = options.width,
+                                  .height = options.height,
+                                  .samples = options.samples,
+                                  .threads = options.threads};
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
 
     Progress tracing("ray tracing " + options.scene, static_cast<std::size_t>(settings.height));
     const Rendering corrected = render(scene, naive, settings, &tracing);
 
-    // As printed, little is seen but the list's last triangle: some crumb on the table, or in reverse a wall.
+    // As printed, little is seen but the list's last triangle: some crumb on the table, or in
+    // reverse a wall.
     const Scene reversed = in_reverse(scene);
     Progress as_printed("the same as printed", static_cast<std::size_t>(settings.height));
-    const Rendering printed = algorithm1_as_printed(reversed, reversed.mesh.triangles(), settings, &as_printed);
+    const Rendering printed =
+        algorithm1_as_printed(reversed, reversed.mesh.triangles(), settings, &as_printed);
 
-    const Image rasterised = render_rasterised(scene, settings.width, settings.height, settings.samples);
+    const Image rasterised =
+        render_rasterised(scene, settings.width, settings.height, settings.samples);
     // [pictures]
 
-    print_heading(
-        fmt::format("{}: {} triangles, {} lights, {} x {} pixels, {} each", options.scene,
-                    with_commas(scene.mesh.faces.size()), scene.lights.size(), settings.width, settings.height,
-                    options.samples == 1 ? "1 ray" : fmt::format("{} rays", options.samples * options.samples)));
+    print_heading(fmt::format(
+        "{}: {} triangles, {} lights, {} x {} pixels, {} each", options.scene,
+        with_commas(scene.mesh.faces.size()), scene.lights.size(), settings.width, settings.height,
+        options.samples == 1 ? "1 ray"
+                             : fmt::format("{} rays", options.samples * options.samples)));
     const RenderCounts& counts = corrected.counts;
     Table table({"", "count", "per pixel"});
     const auto row = [&](const char* what, std::uint64_t count) {
-        table.row(
-            {what, with_commas(count), fmt::format("{:.1f}", double(count) / (settings.width * settings.height))});
+        table.row({what, with_commas(count),
+                   fmt::format("{:.1f}", double(count) / (settings.width * settings.height))});
     };
     row("camera rays", counts.camera_rays);
     row("that hit a triangle", counts.hits);
@@ -79,20 +87,23 @@ void draw_pictures(const ChapterOptions& options) {
     row("ray-triangle tests", counts.traversal.triangles_tested);
     table.print();
 
-    const Coverage coverage =
-        compare_coverage(scene, trace_depth(scene.camera, naive, settings.width, settings.height, settings.threads),
-                         rasterise(scene, settings.width, settings.height));
+    const Coverage coverage = compare_coverage(
+        scene, trace_depth(scene.camera, naive, settings.width, settings.height, settings.threads),
+        rasterise(scene, settings.width, settings.height));
     fmt::print(
-        "\nThe rasteriser sees another triangle in {} of {} pixels, {} of them within {:.4f} pixels of an edge\n"
+        "\nThe rasteriser sees another triangle in {} of {} pixels, {} of them within {:.4f} "
+        "pixels of an edge\n"
         "(farthest {:.4f}), {} where two triangles meet or overlap at the same depth.\n",
-        with_commas(coverage.disagree), with_commas(coverage.pixels), with_commas(coverage.near_edge),
+        with_commas(coverage.disagree), with_commas(coverage.pixels),
+        with_commas(coverage.near_edge),
         coverage_distance(scene.camera, settings.width, settings.height), coverage.farthest,
         with_commas(coverage.same_depth));
 
     write_png(options.out / "ch01_corrected.png", corrected.image);
     write_png(options.out / "ch01_as_printed.png", printed.image);
     write_png(options.out / "ch01_rasterised.png", rasterised);
-    write_png(options.out / "ch01_side_by_side.png", side_by_side({corrected.image, printed.image, rasterised}));
+    write_png(options.out / "ch01_side_by_side.png",
+              side_by_side({corrected.image, printed.image, rasterised}));
 }
 
 int run(int argc, char** argv) {
@@ -106,10 +117,11 @@ int run(int argc, char** argv) {
 
     const std::vector<GrowthPoint> growth = measure_growth(effort, options.seed);
     const std::vector<SharePoint> shares = measure_shares(effort, options.seed);
-    const Results results{"ch01_naive_ray_tracing", options.small, answer_claims(counts, growth, shares)};
+    const Results results{"ch01_naive_ray_tracing", options.small,
+                          answer_claims(counts, growth, shares)};
     write_results(options.out / "results.json", results);
-    const bool agree =
-        std::all_of(counts.begin(), counts.end(), [](const auto& s) { return s.coverage.unexplained == 0; });
+    const bool agree = std::all_of(counts.begin(), counts.end(),
+                                   [](const auto& s) { return s.coverage.unexplained == 0; });
     const int exit_code = static_cast<int>(agree ? ExitCode::ok : ExitCode::wrong_answer);
     if (effort == Effort::small) return exit_code;  // times are no test's business
 

@@ -1,11 +1,12 @@
 /// @file
-/// The ray-triangle test of Möller & Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection".
+/// The ray-triangle test of Möller & Trumbore 1997, "Fast, Minimum Storage Ray-Triangle
+/// Intersection".
 #pragma once
+
+#include "common/accelerator.hpp"
 
 #include <concepts>
 #include <optional>
-
-#include "common/accelerator.hpp"
 
 namespace space {
 
@@ -16,9 +17,10 @@ concept TriangleTest = requires(const Ray& ray, const Triangle& triangle) {
     { T::intersect(ray, triangle) } -> std::same_as<std::optional<Hit>>;
 };
 
-/// Solves origin + t direction = a + u (b - a) + v (c - a) by Cramer's rule, in `Real` arithmetic. The coordinates are
-/// floats; the result is rounded to float once, and t is compared with the interval after rounding, so that the nearest
-/// hit does not depend on the order in which triangles are tested.
+/// Solves origin + t direction = a + u (b - a) + v (c - a) by Cramer's rule, in `Real` arithmetic.
+/// The coordinates are floats; the result is rounded to float once, and t is compared with the
+/// interval after rounding, so that the nearest hit does not depend on the order in which triangles
+/// are tested.
 template <std::floating_point Real>
 struct BasicMollerTrumbore {
     using Real3 = glm::vec<3, Real>;
@@ -29,7 +31,8 @@ struct BasicMollerTrumbore {
         const Real3 a{triangle.a}, ab = Real3(triangle.b) - a, ac = Real3(triangle.c) - a;
         const Real3 p = glm::cross(direction, ac);
         const Real determinant = glm::dot(p, ab);
-        if (determinant == 0) return std::nullopt;  // parallel to the triangle, or a triangle without area
+        if (determinant == 0)
+            return std::nullopt;  // parallel to the triangle, or a triangle without area
 
         const Real3 s = Real3(ray.origin) - a;
         const Real u = glm::dot(p, s) / determinant;
@@ -37,7 +40,8 @@ struct BasicMollerTrumbore {
         const Real3 q = glm::cross(s, ab);
         const Real v = glm::dot(q, direction) / determinant;
         if (!(v >= 0 && u + v <= 1)) return std::nullopt;
-        if (glm::cross(ab, ac) == Real3(0)) return std::nullopt;  // no area, but a determinant of rounding errors
+        if (glm::cross(ab, ac) == Real3(0))
+            return std::nullopt;  // no area, but a determinant of rounding errors
 
         const auto t = static_cast<float>(glm::dot(q, ac) / determinant);
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;  // also where t is not a number
@@ -46,7 +50,8 @@ struct BasicMollerTrumbore {
     // [moller_trumbore]
 };
 
-/// The book's reference test. In float the test misses rays near the edges (figure 1.8; chapter 2 has more).
+/// The book's reference test. In float the test misses rays near the edges (figure 1.8; chapter 2
+/// has more).
 using MollerTrumbore = BasicMollerTrumbore<double>;
 
 }  // namespace space

@@ -1,13 +1,13 @@
 /// @file
-/// No structure at all: every ray is tested against every triangle. Slow, simple, and the answer that every
-/// structure of the book must give.
+/// No structure at all: every ray is tested against every triangle. Slow, simple, and the answer
+/// that every structure of the book must give.
 #pragma once
-
-#include <span>
-#include <vector>
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "common/accelerator.hpp"
+
+#include <span>
+#include <vector>
 
 namespace space {
 
@@ -50,7 +50,8 @@ class Naive {
     }
 
     TreeShape shape() const {
-        return {.references = triangles_.size(), .bytes = sizeof *this + triangles_.capacity() * sizeof(Triangle)};
+        return {.references = triangles_.size(),
+                .bytes = sizeof *this + triangles_.capacity() * sizeof(Triangle)};
     }
 
   private:

@@ -1,23 +1,25 @@
 /// @file
-/// Heinonen16's Algorithm 1, RAY_TRACING, twice: corrected, for any accelerator, and as the thesis prints it.
+/// Heinonen16's Algorithm 1, RAY_TRACING, twice: corrected, for any accelerator, and as the thesis
+/// prints it.
 #pragma once
+
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+#include "chapters/ch01_naive_ray_tracing/shading.hpp"
+#include "common/parallel.hpp"
+#include "common/program/image.hpp"
+#include "common/program/progress.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
-#include "chapters/ch01_naive_ray_tracing/shading.hpp"
-#include "common/program/image.hpp"
-#include "common/parallel.hpp"
-#include "common/program/progress.hpp"
 
 namespace space {
 
 /// What the caller chooses about a picture.
 struct RenderSettings {
     int width = 640, height = 480;
-    int samples = 1;       ///< rays per pixel and axis: samples x samples on a regular grid, 1: the pixel's centre
+    int samples =
+        1;  ///< rays per pixel and axis: samples x samples on a regular grid, 1: the pixel's centre
     unsigned threads = 1;  ///< the picture has the same bytes for any number
 };
 
@@ -60,7 +62,8 @@ Rendering render_pixels(const Camera& camera, const RenderSettings& settings, Pr
             Color sum{0.0f};
             for (int sample = 0; sample < n * n; ++sample) {
                 const double sub_x = x + (sample % n + 0.5) / n, sub_y = y + (sample / n + 0.5) / n;
-                const Ray ray = camera_ray(camera, frame, sub_x, sub_y, settings.width, settings.height);
+                const Ray ray =
+                    camera_ray(camera, frame, sub_x, sub_y, settings.width, settings.height);
                 ++row_counts[row].camera_rays;
                 sum += color_of_ray(ray, row_counts[row]);
             }
@@ -74,10 +77,12 @@ Rendering render_pixels(const Camera& camera, const RenderSettings& settings, Pr
 }
 
 // [color_of_ray]
-/// One ray of the corrected algorithm: the nearest hit first; then one shadow ray for each light, which asks whether
-/// anything lies between; only then the shading. The background where nothing was hit at all.
+/// One ray of the corrected algorithm: the nearest hit first; then one shadow ray for each light,
+/// which asks whether anything lies between; only then the shading. The background where nothing
+/// was hit at all.
 template <class Counts, Accelerator A>
-Color color_of_ray(const Scene& scene, const A& accelerator, const Ray& ray, RenderCounts& rays, Counts& counts) {
+Color color_of_ray(const Scene& scene, const A& accelerator, const Ray& ray, RenderCounts& rays,
+                   Counts& counts) {
     const std::optional<Hit> hit = accelerator.closest_hit(ray, counts);
     if (!hit) return scene.background;
     ++rays.hits;
@@ -90,8 +95,8 @@ Color color_of_ray(const Scene& scene, const A& accelerator, const Ray& ray, Ren
 }
 // [color_of_ray]
 
-/// Algorithm 1, corrected, with any structure over scene.mesh.triangles(). render<NoCounts>(...) counts rays but no
-/// tests.
+/// Algorithm 1, corrected, with any structure over scene.mesh.triangles(). render<NoCounts>(...)
+/// counts rays but no tests.
 template <class Counts = TraversalCounts, Accelerator A>
 Rendering render(const Scene& scene, const A& accelerator, const RenderSettings& settings,
                  Progress* progress = nullptr) {
@@ -104,10 +109,11 @@ Rendering render(const Scene& scene, const A& accelerator, const RenderSettings&
 }
 
 // [as_printed]
-/// One ray of Algorithm 1 as printed; nothing stands for the background. Fault 1: the background is set inside the loop
-/// over the polygons, so that a hit lives only until the next polygon that is missed. Fault 2: the shadow ray is
-/// formed, and nobody asks what it hits.
-inline std::optional<Color> color_of_ray_as_printed(const Scene& scene, std::span<const Triangle> triangles,
+/// One ray of Algorithm 1 as printed; nothing stands for the background. Fault 1: the background is
+/// set inside the loop over the polygons, so that a hit lives only until the next polygon that is
+/// missed. Fault 2: the shadow ray is formed, and nobody asks what it hits.
+inline std::optional<Color> color_of_ray_as_printed(const Scene& scene,
+                                                    std::span<const Triangle> triangles,
                                                     const Ray& ray) {
     std::optional<Color> color;
     float nearest = infinity;
@@ -127,7 +133,8 @@ inline std::optional<Color> color_of_ray_as_printed(const Scene& scene, std::spa
 
 /// Algorithm 1 as the thesis prints it; counted as hits are those that were not erased.
 inline Rendering algorithm1_as_printed(const Scene& scene, std::span<const Triangle> triangles,
-                                       const RenderSettings& settings, Progress* progress = nullptr) {
+                                       const RenderSettings& settings,
+                                       Progress* progress = nullptr) {
     return render_pixels(scene.camera, settings, progress, [&](const Ray& ray, RenderCounts& rays) {
         const std::optional<Color> color = color_of_ray_as_printed(scene, triangles, ray);
         rays.hits += color.has_value();

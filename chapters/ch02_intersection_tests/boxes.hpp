@@ -1,14 +1,15 @@
 /// @file
-/// Ray-box tests: the intersection of three slabs (Kay & Kajiya 1986), in five forms from the plain to the one that never
-/// misses. Each says whether the ray meets the closed box within its closed interval, and where.
+/// Ray-box tests: the intersection of three slabs (Kay & Kajiya 1986), in five forms from the plain
+/// to the one that never misses. Each says whether the ray meets the closed box within its closed
+/// interval, and where.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -24,7 +25,8 @@ struct SlabBranching {
         float enter = ray.tmin, leave = ray.tmax;
         for (int axis = 0; axis < 3; ++axis) {
             if (ray.direction[axis] == 0.0f) {
-                if (ray.origin[axis] < box.min[axis] || ray.origin[axis] > box.max[axis]) return std::nullopt;
+                if (ray.origin[axis] < box.min[axis] || ray.origin[axis] > box.max[axis])
+                    return std::nullopt;
                 continue;
             }
             float near = (box.min[axis] - ray.origin[axis]) / ray.direction[axis];
@@ -39,8 +41,8 @@ struct SlabBranching {
     // [slab_branching]
 };
 
-/// Branchless with divisions. 0 / 0 is not a number, and std::min and std::max then return one or the other argument:
-/// rays in the plane of a face are lost.
+/// Branchless with divisions. 0 / 0 is not a number, and std::min and std::max then return one or
+/// the other argument: rays in the plane of a face are lost.
 struct SlabMinMax {
     static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) {
         float enter = ray.tmin, leave = ray.tmax;
@@ -81,29 +83,36 @@ struct SlabReciprocal {
     }
     // [slab_reciprocal]
     static PreparedBoxRay prepare(const Ray& ray) { return PreparedBoxRay(ray); }
-    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
+    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) {
+        return intersect(prepare(ray), box);
+    }
 };
 
-/// As printed in Optim25: a ray that enters at t <= epsilon is said to start behind the box. It starts inside it.
+/// As printed in Optim25: a ray that enters at t <= epsilon is said to start behind the box. It
+/// starts inside it.
 struct SlabAsPrinted {
     static constexpr float epsilon = 1e-6f;
     static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) {
-        const auto line = SlabReciprocal::intersect(Ray{ray.origin, ray.direction, -infinity, infinity}, box);
+        const auto line =
+            SlabReciprocal::intersect(Ray{ray.origin, ray.direction, -infinity, infinity}, box);
         if (!line || !(line->enter > epsilon)) return std::nullopt;
         return line;
     }
 };
 
-/// The side of entry by the sign of the reciprocal, and comparisons that keep the interval when they meet
-/// something that is not a number (Williams et al. 2005): right for rays in the plane of a face, and for -0.
+/// The side of entry by the sign of the reciprocal, and comparisons that keep the interval when
+/// they meet something that is not a number (Williams et al. 2005): right for rays in the plane of
+/// a face, and for -0.
 struct SlabSafe {
     // [slab_safe]
     static std::optional<Interval> intersect(const PreparedBoxRay& ray, const Aabb& box) {
         float enter = ray.tmin, leave = ray.tmax;
         for (int axis = 0; axis < 3; ++axis) {
             const bool backwards = std::signbit(ray.inverse[axis]);
-            const float near = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * ray.inverse[axis];
-            const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * ray.inverse[axis];
+            const float near =
+                ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * ray.inverse[axis];
+            const float far =
+                ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * ray.inverse[axis];
             enter = near > enter ? near : enter;
             leave = far < leave ? far : leave;
         }
@@ -112,20 +121,24 @@ struct SlabSafe {
     }
     // [slab_safe]
     static PreparedBoxRay prepare(const Ray& ray) { return PreparedBoxRay(ray); }
-    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
+    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) {
+        return intersect(prepare(ray), box);
+    }
 };
 
-/// Never misses a box that the ray meets in exact arithmetic, and reports the interval a little too large: SlabSafe with
-/// two reciprocals, one a little short of 1 / d for the near planes, one a little beyond it for the far planes.
+/// Never misses a box that the ray meets in exact arithmetic, and reports the interval a little too
+/// large: SlabSafe with two reciprocals, one a little short of 1 / d for the near planes, one a
+/// little beyond it for the far planes.
 ///
-/// A computed t carries four roundings, each by a factor of 1 +- u, u = 2^-24: the difference, the reciprocal, its
-/// shortening (or lengthening) and the product. (1 + u)^4 (1 - 5 u) < 1 < (1 - u)^4 (1 + 6 u), so the computed t is never
-/// farther from 0 than the exact one at a near plane, and never nearer at a far plane (Ize 2013, JCGT 2:2, lengthens the
-/// far one alone). That is the safe side for t >= 0; where the exact t is negative the computed one is, too, and either
-/// counts as little as the other as long as tmin >= 0. A product below 2^-126 is off by half the smallest float
-/// more; `tiny` covers that at both ends.
-/// Rays with tmin < 0 or with a reciprocal that is not a normal float, |d| < 2^-128 or |d| > 2^126, take the double path,
-/// where none of this matters. Coordinates are at most 2^126, so that no difference overflows.
+/// A computed t carries four roundings, each by a factor of 1 +- u, u = 2^-24: the difference, the
+/// reciprocal, its shortening (or lengthening) and the product. (1 + u)^4 (1 - 5 u) < 1 < (1 - u)^4
+/// (1 + 6 u), so the computed t is never farther from 0 than the exact one at a near plane, and
+/// never nearer at a far plane (Ize 2013, JCGT 2:2, lengthens the far one alone). That is the safe
+/// side for t >= 0; where the exact t is negative the computed one is, too, and either counts as
+/// little as the other as long as tmin >= 0. A product below 2^-126 is off by half the smallest
+/// float more; `tiny` covers that at both ends. Rays with tmin < 0 or with a reciprocal that is not
+/// a normal float, |d| < 2^-128 or |d| > 2^126, take the double path, where none of this matters.
+/// Coordinates are at most 2^126, so that no difference overflows.
 struct SlabConservative {
     static constexpr float shorten = 1.0f - 5.0f * 0x1p-24f;
     static constexpr float lengthen = 1.0f + 6.0f * 0x1p-24f;
@@ -138,7 +151,10 @@ struct SlabConservative {
         bool in_double;
 
         explicit Prepared(const Ray& ray)
-            : PreparedBoxRay(ray), far_inverse(inverse * lengthen), direction(ray.direction), in_double(!(ray.tmin >= 0.0f)) {
+            : PreparedBoxRay(ray),
+              far_inverse(inverse * lengthen),
+              direction(ray.direction),
+              in_double(!(ray.tmin >= 0.0f)) {
             for (int axis = 0; axis < 3; ++axis)
                 in_double = in_double || (direction[axis] != 0.0f && !std::isnormal(inverse[axis]));
             inverse *= shorten;
@@ -151,8 +167,10 @@ struct SlabConservative {
         float enter = ray.tmin, leave = ray.tmax;
         for (int axis = 0; axis < 3; ++axis) {
             const bool backwards = std::signbit(ray.inverse[axis]);
-            const float near = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * ray.inverse[axis];
-            const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * ray.far_inverse[axis];
+            const float near =
+                ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * ray.inverse[axis];
+            const float far =
+                ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * ray.far_inverse[axis];
             enter = near > enter ? near : enter;
             leave = far < leave ? far : leave;
         }
@@ -162,14 +180,17 @@ struct SlabConservative {
     }
     // [slab_conservative]
     static Prepared prepare(const Ray& ray) { return Prepared(ray); }
-    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) { return intersect(prepare(ray), box); }
+    static std::optional<Interval> intersect(const Ray& ray, const Aabb& box) {
+        return intersect(prepare(ray), box);
+    }
 
   private:
     static std::optional<Interval> in_double(const Prepared& ray, const Aabb& box) {
         constexpr double double_margin = 4.0 * 0x1p-53;  // two roundings: difference and quotient
         double near = -infinity, far = infinity;
         for (int axis = 0; axis < 3; ++axis) {
-            const double low = double{box.min[axis]} - ray.origin[axis], high = double{box.max[axis]} - ray.origin[axis];
+            const double low = double{box.min[axis]} - ray.origin[axis],
+                         high = double{box.max[axis]} - ray.origin[axis];
             if (ray.direction[axis] == 0.0f) {
                 if (low > 0.0 || high < 0.0) return std::nullopt;
                 continue;

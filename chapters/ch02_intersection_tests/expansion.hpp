@@ -1,6 +1,7 @@
 /// @file
-/// Exact sums and products of doubles: a number held as a sum of doubles that do not overlap (Shewchuk 1997, "Adaptive
-/// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", sections 2.3-2.5).
+/// Exact sums and products of doubles: a number held as a sum of doubles that do not overlap
+/// (Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+/// Predicates", sections 2.3-2.5).
 #pragma once
 
 #include <array>
@@ -9,9 +10,10 @@
 
 namespace space {
 
-/// The sum of `size` doubles, smallest first, none of them zero and no two with common bits; at most N of them.
-/// The sign is the last one's. Sums and products are exact as long as nothing over- or underflows: a product
-/// of k floats is a multiple of 2^(-149 k) below 2^(128 k), so up to seven factors are safe.
+/// The sum of `size` doubles, smallest first, none of them zero and no two with common bits; at
+/// most N of them. The sign is the last one's. Sums and products are exact as long as nothing over-
+/// or underflows: a product of k floats is a multiple of 2^(-149 k) below 2^(128 k), so up to seven
+/// factors are safe.
 template <std::size_t N>
 struct Expansion {
     std::array<double, N> part{};
@@ -42,7 +44,8 @@ inline TwoParts two_sum(double a, double b) {
     return {high, (a - a_part) + (b - b_part)};
 }
 
-/// a b = high + low exactly, high the rounded product. std::fma rounds once by definition, with or without hardware.
+/// a b = high + low exactly, high the rounded product. std::fma rounds once by definition, with or
+/// without hardware.
 inline TwoParts two_product(double a, double b) {
     const double high = a * b;
     return {high, std::fma(a, b, -high)};

@@ -1,19 +1,22 @@
 /// @file
-/// The two ray-triangle tests that Lichter23, section 1, compares: plane hit, then the side of every edge.
+/// The two ray-triangle tests that Lichter23, section 1, compares: plane hit, then the side of
+/// every edge.
 #pragma once
-
-#include <optional>
 
 #include "common/accelerator.hpp"
 
+#include <optional>
+
 namespace space {
 
-/// |n . d| below this counts as parallel. The normal n has the length of twice the triangle's area and d any length,
-/// so the number has no meaning of its own: small triangles are never hit (chapter 2, "where it fails").
-/// Lichter23 names an EPSILON and gives no value; this is the usual one.
+/// |n . d| below this counts as parallel. The normal n has the length of twice the triangle's area
+/// and d any length, so the number has no meaning of its own: small triangles are never hit
+/// (chapter 2, "where it fails"). Lichter23 names an EPSILON and gives no value; this is the usual
+/// one.
 inline constexpr float lichter_epsilon = 1e-6f;
 
-/// As Lichter23 starts: u and v are lengths of cross products over the length of the normal, three square roots.
+/// As Lichter23 starts: u and v are lengths of cross products over the length of the normal, three
+/// square roots.
 struct LichterFirst {
     // [lichter_first]
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
@@ -23,18 +26,21 @@ struct LichterFirst {
         if (std::abs(slope) < lichter_epsilon) return std::nullopt;
         const float t = glm::dot(n, a - ray.origin) / slope;
         const Point3 p = ray.at(t);
-        const Vector3 of_c = glm::cross(b - a, p - a), of_a = glm::cross(c - b, p - b), of_b = glm::cross(a - c, p - c);
+        const Vector3 of_c = glm::cross(b - a, p - a), of_a = glm::cross(c - b, p - b),
+                      of_b = glm::cross(a - c, p - c);
         const float length = std::sqrt(glm::dot(n, n));
-        const float u = std::sqrt(glm::dot(of_b, of_b)) / length, v = std::sqrt(glm::dot(of_c, of_c)) / length;
-        if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f) return std::nullopt;
+        const float u = std::sqrt(glm::dot(of_b, of_b)) / length,
+                    v = std::sqrt(glm::dot(of_c, of_c)) / length;
+        if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f)
+            return std::nullopt;
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
         return Hit{.t = t, .u = u, .v = v};
     }
     // [lichter_first]
 };
 
-/// As it ends: out as soon as t is outside the interval (pass the nearest t so far as tmax), u and v last, and
-/// the squared lengths divided before the root, two square roots.
+/// As it ends: out as soon as t is outside the interval (pass the nearest t so far as tmax), u and
+/// v last, and the squared lengths divided before the root, two square roots.
 struct LichterImproved {
     // [lichter_improved]
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
@@ -51,12 +57,15 @@ struct LichterImproved {
         const Vector3 of_b = glm::cross(a - c, p - c);
         if (glm::dot(of_b, n) < 0.0f) return std::nullopt;
         const float square = glm::dot(n, n);
-        return Hit{.t = t, .u = std::sqrt(glm::dot(of_b, of_b) / square), .v = std::sqrt(glm::dot(of_c, of_c) / square)};
+        return Hit{.t = t,
+                   .u = std::sqrt(glm::dot(of_b, of_b) / square),
+                   .v = std::sqrt(glm::dot(of_c, of_c) / square)};
     }
     // [lichter_improved]
 };
 
-/// The first with one of the two changes only, to tell what each of them brings: two roots, still in the first's order ...
+/// The first with one of the two changes only, to tell what each of them brings: two roots, still
+/// in the first's order ...
 struct LichterFewerRoots {
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
         const auto& [a, b, c] = triangle;
@@ -65,10 +74,13 @@ struct LichterFewerRoots {
         if (std::abs(slope) < lichter_epsilon) return std::nullopt;
         const float t = glm::dot(n, a - ray.origin) / slope;
         const Point3 p = ray.at(t);
-        const Vector3 of_c = glm::cross(b - a, p - a), of_a = glm::cross(c - b, p - b), of_b = glm::cross(a - c, p - c);
+        const Vector3 of_c = glm::cross(b - a, p - a), of_a = glm::cross(c - b, p - b),
+                      of_b = glm::cross(a - c, p - c);
         const float square = glm::dot(n, n);
-        const float u = std::sqrt(glm::dot(of_b, of_b) / square), v = std::sqrt(glm::dot(of_c, of_c) / square);
-        if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f) return std::nullopt;
+        const float u = std::sqrt(glm::dot(of_b, of_b) / square),
+                    v = std::sqrt(glm::dot(of_c, of_c) / square);
+        if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f)
+            return std::nullopt;
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
         return Hit{.t = t, .u = u, .v = v};
     }
@@ -90,7 +102,9 @@ struct LichterEarlyExit {
         const Vector3 of_b = glm::cross(a - c, p - c);
         if (glm::dot(of_b, n) < 0.0f) return std::nullopt;
         const float length = std::sqrt(glm::dot(n, n));
-        return Hit{.t = t, .u = std::sqrt(glm::dot(of_b, of_b)) / length, .v = std::sqrt(glm::dot(of_c, of_c)) / length};
+        return Hit{.t = t,
+                   .u = std::sqrt(glm::dot(of_b, of_b)) / length,
+                   .v = std::sqrt(glm::dot(of_c, of_c)) / length};
     }
 };
 

@@ -27,8 +27,8 @@ constexpr void for_each_named(const Tuple& tests, const F& f) {
     std::apply([&](const auto&... named) { (f(index++, named), ...); }, tests);
 }
 
-/// What a test makes of a ray once for many shapes, or of a shape once for many rays; the argument itself where it makes
-/// nothing.
+/// What a test makes of a ray once for many shapes, or of a shape once for many rays; the argument
+/// itself where it makes nothing.
 template <class Test, class Argument>
 auto prepared(const Argument& argument) {
     if constexpr (requires { Test::prepare(argument); })

@@ -1,26 +1,30 @@
 /// @file
-/// Where a secondary ray starts, so that it neither meets the triangle that it leaves nor slips out of a closed mesh
-/// between two: beside the plane by a derived distance, and never by "a small epsilon".
+/// Where a secondary ray starts, so that it neither meets the triangle that it leaves nor slips out
+/// of a closed mesh between two: beside the plane by a derived distance, and never by "a small
+/// epsilon".
 #pragma once
+
+#include "chapters/ch01_naive_ray_tracing/shading.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "chapters/ch01_naive_ray_tracing/shading.hpp"
-
 namespace space {
 
 // [offset_origin]
-/// The hit point, moved along the normal n (either of the two, of any length) and rounded to floats.
+/// The hit point, moved along the normal n (either of the two, of any length) and rounded to
+/// floats.
 ///
-/// Let e = 2^-24, m the triangle's largest coordinate, P the exact point for the float u and v: it lies in the plane.
-/// hit_point gives it in double, off by less than 17 * 2^-53 m, and rounding P + offset n to floats moves each
-/// coordinate by at most e m (1 + 4 e). Together that is a vector r with |r| < 1.001 sqrt(3) e m. For a unit normal k
+/// Let e = 2^-24, m the triangle's largest coordinate, P the exact point for the float u and v: it
+/// lies in the plane. hit_point gives it in double, off by less than 17 * 2^-53 m, and rounding P +
+/// offset n to floats moves each coordinate by at most e m (1 + 4 e). Together that is a vector r
+/// with |r| < 1.001 sqrt(3) e m. For a unit normal k
 ///     k . (P' - P) = offset (k . n) + k . r > e m (4 (k . n) - 1.74):
 /// - with k = n the new point is beside the plane, on the right side, by more than 2 e m;
-/// - with k the normal of a neighbour that P touches, turned by up to 60 degrees, by more than 0.26 e m. Chapter 1
-///   moves each coordinate by the same distance, along the signs of n only: it proves the first, but not this one, and
-///   in a crease the ray can start behind the neighbour.
+/// - with k the normal of a neighbour that P touches, turned by up to 60 degrees, by more than 0.26
+/// e m. Chapter 1
+///   moves each coordinate by the same distance, along the signs of n only: it proves the first,
+///   but not this one, and in a crease the ray can start behind the neighbour.
 /// The distance grows with the distance from the world's origin, as the float grid does.
 inline Point3 offset_origin(const Triangle& triangle, const Hit& hit, const Double3& n) {
     const Aabb box = bounds(triangle);

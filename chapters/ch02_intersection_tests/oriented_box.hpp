@@ -1,14 +1,14 @@
 /// @file
-/// Ray against an oriented box: the inverse-transformed ray against the local, axis-aligned box (Optim25, section 3). t
-/// is the same in both spaces as long as the direction is not normalised.
+/// Ray against an oriented box: the inverse-transformed ray against the local, axis-aligned box
+/// (Optim25, section 3). t is the same in both spaces as long as the direction is not normalised.
 #pragma once
 
-#include <optional>
+#include "chapters/ch02_intersection_tests/boxes.hpp"
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "chapters/ch02_intersection_tests/boxes.hpp"
+#include <optional>
 
 namespace space {
 
@@ -31,7 +31,8 @@ inline std::optional<Interval> intersect(const Ray& ray, const OrientedBox& box)
 
 /// The axis-aligned box around it (Arvo 1990): each axis adds the size of its part.
 inline Aabb bounds(const OrientedBox& box) {
-    const Vector3 reach = glm::abs(box.axes[0]) * box.half.x + glm::abs(box.axes[1]) * box.half.y + glm::abs(box.axes[2]) * box.half.z;
+    const Vector3 reach = glm::abs(box.axes[0]) * box.half.x + glm::abs(box.axes[1]) * box.half.y +
+                          glm::abs(box.axes[2]) * box.half.z;
     return {box.center - reach, box.center + reach};
 }
 

@@ -12,8 +12,10 @@ inline constexpr std::tuple box_tests{
     NamedTest<SlabBranching>{"branching", "a branch at every step, three divisions"},
     NamedTest<SlabMinMax>{"min/max", "no branch until the end, three divisions"},
     NamedTest<SlabReciprocal>{"reciprocal", "the same with 1 / d, made once per ray (Optim25)"},
-    NamedTest<SlabSafe>{"safe", "the side of entry by the sign of 1 / d; keeps its interval against NaN"},
-    NamedTest<SlabConservative>{"conservative", "safe, and widened by a derived bound: never misses"},
+    NamedTest<SlabSafe>{"safe",
+                        "the side of entry by the sign of 1 / d; keeps its interval against NaN"},
+    NamedTest<SlabConservative>{"conservative",
+                                "safe, and widened by a derived bound: never misses"},
     NamedTest<SlabAsPrinted>{"as printed", "Optim25's, which rejects rays from inside"},
 };
 inline constexpr std::size_t box_test_count = std::tuple_size_v<decltype(box_tests)>;

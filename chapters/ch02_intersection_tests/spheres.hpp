@@ -1,11 +1,12 @@
 /// @file
-/// Ray-sphere tests: the geometric one of Heinonen16 as printed and corrected, the schoolbook quadratic, and the stable one.
+/// Ray-sphere tests: the geometric one of Heinonen16 as printed and corrected, the schoolbook
+/// quadratic, and the stable one.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <cmath>
 #include <optional>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -15,8 +16,8 @@ struct Sphere {
     float radius = 1.0f;
 };
 
-/// Heinonen16, section 3.2, as printed: the distance of the centre from the ray's *line* decides, so a sphere behind the
-/// origin is hit too.
+/// Heinonen16, section 3.2, as printed: the distance of the centre from the ray's *line* decides,
+/// so a sphere behind the origin is hit too.
 struct SphereAsPrinted {
     static bool hits(const Ray& ray, const Sphere& sphere) {
         const Vector3 to_center = sphere.center - ray.origin;
@@ -25,8 +26,9 @@ struct SphereAsPrinted {
     }
 };
 
-/// t of the first point of the sphere's surface in [tmin, tmax], by the quadratic A t^2 + 2 B t + C = 0 as at school: B^2 - A C
-/// cancels when the sphere is small or far, and so does -B + root when the origin is near the surface.
+/// t of the first point of the sphere's surface in [tmin, tmax], by the quadratic A t^2 + 2 B t + C
+/// = 0 as at school: B^2 - A C cancels when the sphere is small or far, and so does -B + root when
+/// the origin is near the surface.
 struct SphereSchoolbook {
     // [sphere_schoolbook]
     static std::optional<float> intersect(const Ray& ray, const Sphere& sphere) {
@@ -43,9 +45,9 @@ struct SphereSchoolbook {
     // [sphere_schoolbook]
 };
 
-/// The stable form (Haines, Günther & Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection"): the
-/// discriminant from the vector between the centre and the ray's nearest point, and the root without cancellation
-/// from the product of the two.
+/// The stable form (Haines, Günther & Akenine-Möller 2019, "Precision Improvements for Ray/Sphere
+/// Intersection"): the discriminant from the vector between the centre and the ray's nearest point,
+/// and the root without cancellation from the product of the two.
 struct SphereStable {
     // [sphere_stable]
     static std::optional<float> intersect(const Ray& ray, const Sphere& sphere) {
@@ -75,7 +77,8 @@ struct SphereDouble {
         if (!(discriminant >= 0.0)) return std::nullopt;
         const double root = std::sqrt(discriminant);
         const double q = -b - std::copysign(root, b);
-        const auto [t0, t1] = q == 0.0 ? std::pair(0.0, 0.0) : std::pair(std::min(c / q, q / a), std::max(c / q, q / a));
+        const auto [t0, t1] = q == 0.0 ? std::pair(0.0, 0.0)
+                                       : std::pair(std::min(c / q, q / a), std::max(c / q, q / a));
         for (const double root_t : {t0, t1})
             if (const auto t = static_cast<float>(root_t); t >= ray.tmin && t <= ray.tmax) return t;
         return std::nullopt;

@@ -1,6 +1,6 @@
 /// @file
-/// Square roots by Newton's method from a bit-trick guess (Lichter23, section 2), one or four at a time, and the
-/// hardware's own.
+/// Square roots by Newton's method from a bit-trick guess (Lichter23, section 2), one or four at a
+/// time, and the hardware's own.
 #pragma once
 
 #include <bit>
@@ -16,12 +16,12 @@
 
 namespace space {
 
-/// The constants of Lichter23: half the exponent's bias put back (2^29 - 2^22 in the bits), and a correction
-/// that spreads the error of the first guess over both signs.
+/// The constants of Lichter23: half the exponent's bias put back (2^29 - 2^22 in the bits), and a
+/// correction that spreads the error of the first guess over both signs.
 inline constexpr std::uint32_t root_guess_bias = (1u << 29) - (1u << 22) - 0x4C000u;
 
-/// A first guess, at most 3.5 % off: halving the bits halves the exponent, and the mantissa nearly so.
-/// Right for positive normal floats only.
+/// A first guess, at most 3.5 % off: halving the bits halves the exponent, and the mantissa nearly
+/// so. Right for positive normal floats only.
 // [root_guess]
 inline float root_guess(float a) {
     return std::bit_cast<float>(root_guess_bias + (std::bit_cast<std::uint32_t>(a) >> 1));
@@ -36,12 +36,14 @@ float newton_root(float a) {
 }
 // [root_guess]
 
-/// The cure for zero, denormals, infinity, NaN and negative numbers, with the answers of IEEE 754's square root.
+/// The cure for zero, denormals, infinity, NaN and negative numbers, with the answers of IEEE 754's
+/// square root.
 template <int Rounds>
 float careful_newton_root(float a) {
     if (!(a > 0.0f)) return a == 0.0f ? a : std::numeric_limits<float>::quiet_NaN();
     if (a == std::numeric_limits<float>::infinity()) return a;
-    if (a < std::numeric_limits<float>::min()) return 0x1p-12f * newton_root<Rounds>(0x1p24f * a);  // now normal
+    if (a < std::numeric_limits<float>::min())
+        return 0x1p-12f * newton_root<Rounds>(0x1p24f * a);  // now normal
     return newton_root<Rounds>(a);
 }
 
@@ -76,7 +78,8 @@ Simd4 newton_root(Simd4 a) {
     return r;
 }
 
-/// Newton for 1 / sqrt(a): y = y (3 - a y^2) / 2 needs no division; the guess mirrors root_guess (Lomont 2003).
+/// Newton for 1 / sqrt(a): y = y (3 - a y^2) / 2 needs no division; the guess mirrors root_guess
+/// (Lomont 2003).
 template <int Rounds>
 float reciprocal_newton_root(float a) {
     float y = std::bit_cast<float>(0x5F375A86u - (std::bit_cast<std::uint32_t>(a) >> 1));
@@ -85,8 +88,8 @@ float reciprocal_newton_root(float a) {
 }
 
 #if defined(__SSE__)
-/// The processor's estimate of 1 / sqrt(a), 12 bits of it, and Newton rounds on top. Processors of different makers give
-/// different bits: bound its error, never compare it.
+/// The processor's estimate of 1 / sqrt(a), 12 bits of it, and Newton rounds on top. Processors of
+/// different makers give different bits: bound its error, never compare it.
 template <int Rounds>
 float hardware_reciprocal_root(float a) {
     float y = _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss(a)));

@@ -1,5 +1,6 @@
 /// @file
-/// Every ray-triangle test of the book by name: for loops over all of them, and for --triangle-test.
+/// Every ray-triangle test of the book by name: for loops over all of them, and for
+/// --triangle-test.
 #pragma once
 
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
@@ -16,7 +17,8 @@ namespace space {
 inline constexpr std::tuple triangle_tests{
     NamedTest<MollerTrumbore>{"moller-trumbore", "Möller & Trumbore 1997, in double (chapter 1)"},
     NamedTest<MollerTrumboreFloat>{"moller-trumbore-float", "the same in float"},
-    NamedTest<LichterFirst>{"lichter-first", "plane and edge signs, three square roots (Lichter23)"},
+    NamedTest<LichterFirst>{"lichter-first",
+                            "plane and edge signs, three square roots (Lichter23)"},
     NamedTest<LichterImproved>{"lichter-improved", "the same with early exit and two square roots"},
     NamedTest<UnitTriangle>{"unit-triangle", "an affine map made once per triangle (Woop 2004)"},
     NamedTest<Plucker>{"plucker", "signed volumes, exact opposites at shared edges"},

@@ -2,6 +2,10 @@
 /// Rays in a BSP tree: front to back, both subtrees only where the ray crosses the plane.
 #pragma once
 
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
+#include "common/accelerator.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,13 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
-#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
-#include "common/accelerator.hpp"
-
 namespace space {
 
-/// Where a ray crosses a plane: t lies in [earliest, latest]; anywhere if it runs (nearly) along the plane.
+/// Where a ray crosses a plane: t lies in [earliest, latest]; anywhere if it runs (nearly) along
+/// the plane.
 struct PlaneCrossing {
     bool starts_in_front;
     double earliest, latest;
@@ -27,7 +28,8 @@ struct PlaneCrossing {
 /// the slope's sign is not known, the ray may cross anywhere, unless its whole way [enter, leave]
 /// stays clear of the plane.
 template <int D>
-PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, double enter, double leave) {
+PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, double enter,
+                          double leave) {
     constexpr double roundings = 16.0 * 0x1p-53;
     const DoublePoint<D> from = DoublePoint<D>(ray.origin) - DoublePoint<D>(plane.through[0]);
     const DoublePoint<D> direction{ray.direction};
@@ -42,7 +44,8 @@ PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, do
     }
     const double reach =
         std::max(std::abs(enter), std::abs(leave)) * (std::abs(slope) + slope_error);
-    if (std::abs(height) > height_error + reach) return {height > 0.0, infinity, infinity};  // never
+    if (std::abs(height) > height_error + reach)
+        return {height > 0.0, infinity, infinity};  // never
     return {height > 0.0, -infinity, infinity};
 }
 // [cross_plane]
@@ -53,7 +56,8 @@ PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, do
 /// that lies behind it. cross returns the t beyond which nothing matters any more (NaN: nothing at
 /// all). The stack is our own: a tree may be deeper than the machine's stack.
 template <int D, class Counts, class Cross>
-void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& counts, const Cross& cross) {
+void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& counts,
+                   const Cross& cross) {
     if (!is_valid(ray) || tree.nodes.empty()) return;
     struct Task {
         std::int32_t crossed;  ///< the node whose plane comes next; none before the first
@@ -68,7 +72,8 @@ void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& count
         auto [crossed, index, enter, leave] = tasks.back();
         tasks.pop_back();
         if (!(enter <= limit)) continue;
-        if (crossed != BspTree<D>::none) limit = cross(tree.nodes[static_cast<std::size_t>(crossed)]);
+        if (crossed != BspTree<D>::none)
+            limit = cross(tree.nodes[static_cast<std::size_t>(crossed)]);
         while (index != BspTree<D>::none) {
             const auto& node = tree.nodes[static_cast<std::size_t>(index)];
             counts.visit_node();
@@ -89,17 +94,19 @@ void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& count
 }
 // [front_to_back]
 
-/// The accelerator. A fragment stands for its original triangle, which is the one that is tested: fragments give the order
-/// only, and their rounded corners never decide a hit.
+/// The accelerator. A fragment stands for its original triangle, which is the one that is tested:
+/// fragments give the order only, and their rounded corners never decide a hit.
 template <TriangleTest Test = MollerTrumbore>
 class Bsp {
   public:
     using Config = BspConfig;
 
     template <class Observer = NoBspObserver>
-    static Bsp build(std::span<const Triangle> triangles, const Config& config = {}, Observer&& observer = {}) {
+    static Bsp build(std::span<const Triangle> triangles, const Config& config = {},
+                     Observer&& observer = {}) {
         Bsp bsp;
-        bsp.tree_ = BspBuilder<3, Observer>::build(corners(triangles), config, std::forward<Observer>(observer));
+        bsp.tree_ = BspBuilder<3, Observer>::build(corners(triangles), config,
+                                                   std::forward<Observer>(observer));
         return bsp;
     }
     const BspTree<3>& tree() const { return tree_; }
@@ -127,18 +134,24 @@ class Bsp {
 
     TreeShape shape() const {
         std::size_t bytes = sizeof *this + tree_.nodes.size() * sizeof(BspTree<3>::Node) +
-                            tree_.planes.size() * sizeof(SplitPlane<3>) + tree_.polygons.size() * sizeof(Corners<3>);
+                            tree_.planes.size() * sizeof(SplitPlane<3>) +
+                            tree_.polygons.size() * sizeof(Corners<3>);
         std::size_t leaves = 0;
         for (const Fragment<3>& fragment : tree_.fragments)
             bytes += sizeof fragment + fragment.corners.size() * sizeof(Corner<3>);
-        for (const auto& node : tree_.nodes) leaves += node.front == BspTree<3>::none && node.back == BspTree<3>::none;
-        return {.nodes = tree_.nodes.size(), .leaves = leaves, .depth = tree_.depth(), .references = tree_.fragments.size(), .bytes = bytes};
+        for (const auto& node : tree_.nodes)
+            leaves += node.front == BspTree<3>::none && node.back == BspTree<3>::none;
+        return {.nodes = tree_.nodes.size(),
+                .leaves = leaves,
+                .depth = tree_.depth(),
+                .references = tree_.fragments.size(),
+                .bytes = bytes};
     }
 
   private:
     // [traverse]
-    /// Calls found(hit) for the hits of every triangle that has a fragment where the ray crosses its
-    /// plane; found returns the t beyond which nothing matters any more.
+    /// Calls found(hit) for the hits of every triangle that has a fragment where the ray crosses
+    /// its plane; found returns the t beyond which nothing matters any more.
     template <class Counts, class Found>
     void traverse(const Ray& ray, Counts& counts, const Found& found) const {
         double limit = infinity;

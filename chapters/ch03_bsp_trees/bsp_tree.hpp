@@ -1,13 +1,13 @@
 /// @file
-/// BSP trees (Fuchs, Kedem & Naylor 1980) for segments in the plane and polygons in space: what a tree is, and what can be
-/// asked of it. bsp_build.hpp makes one.
+/// BSP trees (Fuchs, Kedem & Naylor 1980) for segments in the plane and polygons in space: what a
+/// tree is, and what can be asked of it. bsp_build.hpp makes one.
 #pragma once
+
+#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 namespace space {
 
@@ -19,8 +19,9 @@ template <int D>
 struct BspTree {
     static constexpr std::int32_t none = -1;
 
-    /// An inner node: everything in front of its plane is below `front`, everything behind it below `back`; what lies in
-    /// the plane, facing either way, is its own. A child that is none is an empty cell.
+    /// An inner node: everything in front of its plane is below `front`, everything behind it below
+    /// `back`; what lies in the plane, facing either way, is its own. A child that is none is an
+    /// empty cell.
     struct Node {
         std::uint32_t plane;
         std::int32_t front = none, back = none;
@@ -33,9 +34,10 @@ struct BspTree {
     std::vector<Fragment<D>> fragments;
 
     // [in_order]
-    /// Painter's order (Fuchs, Kedem & Naylor 1980, section 3): calls draw(fragment) from the farthest to the nearest as
-    /// seen from the eye, in a tree made by cutting (shared polygons stick out of their cells). What lies behind a plane, seen
-    /// from the eye, can't cover what lies before it. The stack is our own: a tree may be deeper than the machine's stack.
+    /// Painter's order (Fuchs, Kedem & Naylor 1980, section 3): calls draw(fragment) from the
+    /// farthest to the nearest as seen from the eye, in a tree made by cutting (shared polygons
+    /// stick out of their cells). What lies behind a plane, seen from the eye, can't cover what
+    /// lies before it. The stack is our own: a tree may be deeper than the machine's stack.
     template <class Draw>
     void back_to_front(const Point<D>& eye, const Draw& draw) const {
         struct Task {
@@ -61,9 +63,10 @@ struct BspTree {
     // [in_order]
 
     // [locate]
-    /// Inside or outside of the closed mesh that the tree was built from by cutting, front sides outwards. A cell in front
-    /// of the last polygon's plane touches that polygon's front. A point on a plane is asked of both sides (Thibault &
-    /// Naylor 1987): it is on the boundary where the cells around it differ.
+    /// Inside or outside of the closed mesh that the tree was built from by cutting, front sides
+    /// outwards. A cell in front of the last polygon's plane touches that polygon's front. A point
+    /// on a plane is asked of both sides (Thibault & Naylor 1987): it is on the boundary where the
+    /// cells around it differ.
     Cell locate(const Point<D>& p) const {
         if (nodes.empty()) return Cell::outside;
         bool inside = false, outside = false;
@@ -88,7 +91,8 @@ struct BspTree {
         return exact_side<D>(plane.through, p);
     }
 
-    /// Edges from the root to the deepest node; 0 for a root alone. A node stands before its children.
+    /// Edges from the root to the deepest node; 0 for a root alone. A node stands before its
+    /// children.
     std::size_t depth() const {
         std::vector<std::size_t> level(nodes.size());
         std::size_t deepest = 0;

@@ -1,8 +1,8 @@
 #include "chapters/ch03_bsp_trees/exact_corner.hpp"
 
-#include <algorithm>
-
 #include "chapters/ch03_bsp_trees/exact_point.hpp"
+
+#include <algorithm>
 
 namespace space {
 namespace {
@@ -10,7 +10,9 @@ namespace {
 /// Every float is a whole number of 2^-149.
 constexpr int unit_exponent = 149;
 
-mpz_class units(float x) { return mpz_class(std::ldexp(static_cast<double>(x), unit_exponent)); }
+mpz_class units(float x) {
+    return mpz_class(std::ldexp(static_cast<double>(x), unit_exponent));
+}
 
 template <int D>
 using Whole = std::array<mpz_class, D>;
@@ -34,7 +36,8 @@ mpz_class dot(const Whole<D>& a, const Whole<D>& b) {
     return sum;
 }
 Whole<3> cross(const Whole<3>& a, const Whole<3>& b) {
-    return {mpz_class(a[1] * b[2] - a[2] * b[1]), mpz_class(a[2] * b[0] - a[0] * b[2]), mpz_class(a[0] * b[1] - a[1] * b[0])};
+    return {mpz_class(a[1] * b[2] - a[2] * b[1]), mpz_class(a[2] * b[0] - a[0] * b[2]),
+            mpz_class(a[0] * b[1] - a[1] * b[0])};
 }
 
 /// normal . p = offset on the plane, positive in front.
@@ -73,7 +76,8 @@ Homogeneous<D> meet(const Whole<D>& p, const Whole<D>& q, const WholePlane<D>& p
 
 /// Cramer's rule.
 Homogeneous<3> meet(const WholePlane<3>& a, const WholePlane<3>& b, const WholePlane<3>& c) {
-    const Whole<3> bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal), ab = cross(a.normal, b.normal);
+    const Whole<3> bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal),
+                   ab = cross(a.normal, b.normal);
     Homogeneous<3> result;
     for (int axis = 0; axis < 3; ++axis)
         result.numerator[axis] = a.offset * bc[axis] + b.offset * ca[axis] + c.offset * ab[axis];
@@ -84,7 +88,8 @@ Homogeneous<3> meet(const WholePlane<3>& a, const WholePlane<3>& b, const WholeP
 Homogeneous<3> point_of(const Meet3& m) {
     const Corners<3>& polygon = *m.polygon;
     const auto line_meets = [&](int edge, const Corners<3>& plane) {
-        return meet<3>(units<3>(polygon[edge]), units<3>(polygon[(edge + 1) % 3]), WholePlane<3>(plane));
+        return meet<3>(units<3>(polygon[edge]), units<3>(polygon[(edge + 1) % 3]),
+                       WholePlane<3>(plane));
     };
     if (m.first_edge >= 0 && m.second_edge >= 0) {  // the corner that the two edges share
         const int corner = (m.first_edge + 1) % 3 == m.second_edge ? m.second_edge : m.first_edge;
@@ -92,7 +97,8 @@ Homogeneous<3> point_of(const Meet3& m) {
     }
     if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
     if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
-    return meet(WholePlane<3>(polygon), WholePlane<3>(*m.first_plane), WholePlane<3>(*m.second_plane));
+    return meet(WholePlane<3>(polygon), WholePlane<3>(*m.first_plane),
+                WholePlane<3>(*m.second_plane));
 }
 
 Homogeneous<2> point_of(const Meet2& m) {
@@ -102,7 +108,8 @@ Homogeneous<2> point_of(const Meet2& m) {
 template <int D>
 int side(const Corners<D>& plane, const Homogeneous<D>& point) {
     const WholePlane<D> exact(plane);
-    const mpz_class distance = dot<D>(exact.normal, point.numerator) - exact.offset * point.denominator;
+    const mpz_class distance =
+        dot<D>(exact.normal, point.numerator) - exact.offset * point.denominator;
     return sgn(distance) * sgn(point.denominator);
 }
 
@@ -116,20 +123,25 @@ Approximation<D> rounded(const Homogeneous<D>& point) {
         const double numerator = mpz_get_d_2exp(&exponent, point.numerator[axis].get_mpz_t());
         const auto scale = static_cast<int>(exponent - denominator_exponent) - unit_exponent;
         result.at[axis] = std::ldexp(numerator / denominator, scale);
-        // Two truncations to 53 bits and a rounded quotient: less than six half places. What underflows is below 2^-1000.
-        result.error = std::max(result.error, 6.0 * 0x1p-53 * std::abs(result.at[axis]) + 0x1p-1000);
+        // Two truncations to 53 bits and a rounded quotient: less than six half places. What
+        // underflows is below 2^-1000.
+        result.error =
+            std::max(result.error, 6.0 * 0x1p-53 * std::abs(result.at[axis]) + 0x1p-1000);
     }
     return result;
 }
 
-/// u = 2^-53; sixteen of them cover the seven to eleven roundings of a distance or a determinant here, and of its bound.
+/// u = 2^-53; sixteen of them cover the seven to eleven roundings of a distance or a determinant
+/// here, and of its bound.
 constexpr double roundings = 16.0 * 0x1p-53;
-/// A double answer is good enough where its error is below this part of the distances that it was made from: the filters that
-/// use it then still decide all but one corner in a million.
+/// A double answer is good enough where its error is below this part of the distances that it was
+/// made from: the filters that use it then still decide all but one corner in a million.
 constexpr double good_enough = 0x1p-30;
 
 template <int D>
-double one_norm(const DoublePoint<D>& v) { return SplitPlane<D>::one_norm(v); }
+double one_norm(const DoublePoint<D>& v) {
+    return SplitPlane<D>::one_norm(v);
+}
 
 /// Any order of points, so that polygons on both sides of an edge round the same point.
 template <int D>
@@ -141,43 +153,54 @@ bool before(const Point<D>& p, const Point<D>& q) {
 
 /// Where the line through p and q meets the plane, in double.
 template <int D>
-std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>& q, const SplitPlane<D>& plane) {
+std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>& q,
+                                               const SplitPlane<D>& plane) {
     if (before<D>(q, p)) return meet_in_double<D>(q, p, plane);
     const DoublePoint<D> start(p), way = DoublePoint<D>(q) - start, anchor(plane.through[0]);
-    const double of_p = plane.distance(start), of_q = plane.distance(DoublePoint<D>(q)), difference = of_p - of_q;
+    const double of_p = plane.distance(start), of_q = plane.distance(DoublePoint<D>(q)),
+                 difference = of_p - of_q;
     const double p_error = roundings * plane.size * one_norm<D>(start - anchor);
-    const double difference_error = p_error + roundings * plane.size * one_norm<D>(DoublePoint<D>(q) - anchor);
+    const double difference_error =
+        p_error + roundings * plane.size * one_norm<D>(DoublePoint<D>(q) - anchor);
     const double left = std::abs(difference) - difference_error;
     if (!(left > 0.0)) return std::nullopt;
     const double s = of_p / difference, s_error = (p_error + std::abs(s) * difference_error) / left;
     if (!(s_error < good_enough)) return std::nullopt;
-    return Approximation<D>{start + s * way, (s_error + roundings) * one_norm<D>(way) + roundings * one_norm<D>(start)};
+    return Approximation<D>{
+        start + s * way, (s_error + roundings) * one_norm<D>(way) + roundings * one_norm<D>(start)};
 }
 
 /// Where three planes meet, by Cramer's rule about a point nearby, in double.
-std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const SplitPlane<3>& b, const SplitPlane<3>& c) {
+std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const SplitPlane<3>& b,
+                                               const SplitPlane<3>& c) {
     const Double3 near(a.through[0]);
-    const Double3 bc = glm::cross(b.normal, c.normal), ca = glm::cross(c.normal, a.normal), ab = glm::cross(a.normal, b.normal);
-    const Double3 from_b = Double3(b.through[0]) - near, from_c = Double3(c.through[0]) - near;  // a's offset is 0
+    const Double3 bc = glm::cross(b.normal, c.normal), ca = glm::cross(c.normal, a.normal),
+                  ab = glm::cross(a.normal, b.normal);
+    const Double3 from_b = Double3(b.through[0]) - near,
+                  from_c = Double3(c.through[0]) - near;  // a's offset is 0
     const Double3 numerator = glm::dot(b.normal, from_b) * ca + glm::dot(c.normal, from_c) * ab;
     const double denominator = glm::dot(a.normal, bc);
-    const double volume = 2.0 * roundings * a.size * b.size * c.size, reach = one_norm<3>(from_b) + one_norm<3>(from_c);
+    const double volume = 2.0 * roundings * a.size * b.size * c.size,
+                 reach = one_norm<3>(from_b) + one_norm<3>(from_c);
     const double left = std::abs(denominator) - volume;
     if (!(left > 0.0)) return std::nullopt;
     const Double3 from_near = numerator / denominator;
     const double error = volume * (reach + one_norm<3>(from_near)) / left;
     if (!(error < good_enough * (reach + one_norm<3>(from_near)))) return std::nullopt;
-    return Approximation<3>{near + from_near, error + roundings * (one_norm<3>(near) + one_norm<3>(from_near))};
+    return Approximation<3>{near + from_near,
+                            error + roundings * (one_norm<3>(near) + one_norm<3>(from_near))};
 }
 
 std::optional<Approximation<3>> in_double(const Meet3& m) {
     const auto line_meets = [&](int edge, const Corners<3>& plane) {
-        return meet_in_double<3>((*m.polygon)[edge], (*m.polygon)[(edge + 1) % 3], SplitPlane<3>(plane));
+        return meet_in_double<3>((*m.polygon)[edge], (*m.polygon)[(edge + 1) % 3],
+                                 SplitPlane<3>(plane));
     };
     if (m.first_edge >= 0 && m.second_edge >= 0) return std::nullopt;
     if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
     if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
-    return meet_in_double(SplitPlane<3>(*m.polygon), SplitPlane<3>(*m.first_plane), SplitPlane<3>(*m.second_plane));
+    return meet_in_double(SplitPlane<3>(*m.polygon), SplitPlane<3>(*m.first_plane),
+                          SplitPlane<3>(*m.second_plane));
 }
 std::optional<Approximation<2>> in_double(const Meet2& m) {
     return meet_in_double<2>((*m.polygon)[0], (*m.polygon)[1], SplitPlane<2>(*m.line));
@@ -185,12 +208,17 @@ std::optional<Approximation<2>> in_double(const Meet2& m) {
 
 }  // namespace
 
-int exact_side(const Corners<3>& plane, const Meet3& meet) { return side<3>(plane, point_of(meet)); }
-int exact_side(const Corners<2>& line, const Meet2& meet) { return side<2>(line, point_of(meet)); }
+int exact_side(const Corners<3>& plane, const Meet3& meet) {
+    return side<3>(plane, point_of(meet));
+}
+int exact_side(const Corners<2>& line, const Meet2& meet) {
+    return side<2>(line, point_of(meet));
+}
 
 template <int D>
 int exact_side(const Corners<D>& plane, const Point<D>& point) {
-    // Most corners that the filter leaves open are the plane's own: neighbours in a mesh share them.
+    // Most corners that the filter leaves open are the plane's own: neighbours in a mesh share
+    // them.
     if (std::find(plane.begin(), plane.end(), point) != plane.end()) return 0;
     return sgn(WholePlane<D>(plane).distance(units<D>(point)));
 }

@@ -1,17 +1,18 @@
 /// @file
-/// Corners of fragments as what they are, meets of input planes, and exact answers about them. A new corner is never made
-/// from corners that were made before, so numbers stay short however often a polygon is cut (Bernstein & Fussell
-/// 2009, "Fast, Exact, Linear Booleans", section 3).
+/// Corners of fragments as what they are, meets of input planes, and exact answers about them. A
+/// new corner is never made from corners that were made before, so numbers stay short however often
+/// a polygon is cut (Bernstein & Fussell 2009, "Fast, Exact, Linear Booleans", section 3).
 #pragma once
-
-#include <cstdint>
 
 #include "chapters/ch03_bsp_trees/split_plane.hpp"
 
+#include <cstdint>
+
 namespace space {
 
-/// What an edge of a fragment lies on: an edge of its original polygon, or a splitting plane by its number. In the plane a
-/// fragment has no edges but ends: an end of the original segment, or the line that cut it off.
+/// What an edge of a fragment lies on: an edge of its original polygon, or a splitting plane by its
+/// number. In the plane a fragment has no edges but ends: an end of the original segment, or the
+/// line that cut it off.
 struct Carrier {
     std::int32_t id;
 
@@ -30,11 +31,11 @@ struct Approximation {
     double error;
 };
 
-/// In space: where the plane of `polygon` and the carriers of two neighbouring edges meet. Carriers are numbers of original
-/// edges (edge i from corner i to the next) or pointers to the planes.
+/// In space: where the plane of `polygon` and the carriers of two neighbouring edges meet. Carriers
+/// are numbers of original edges (edge i from corner i to the next) or pointers to the planes.
 struct Meet3 {
     const Corners<3>* polygon;
-    int first_edge, second_edge;                       ///< original edges; -1: the plane instead
+    int first_edge, second_edge;  ///< original edges; -1: the plane instead
     const Corners<3>*first_plane, *second_plane;
 };
 /// In the plane: where the line of `polygon` and a splitting line meet.

@@ -1,12 +1,13 @@
 /// @file
-/// Exact corners as rational numbers, for those few who need more than a side: exact areas, exact hits.
+/// Exact corners as rational numbers, for those few who need more than a side: exact areas, exact
+/// hits.
 #pragma once
 
-#include <array>
+#include "chapters/ch03_bsp_trees/exact_corner.hpp"
 
 #include <gmpxx.h>
 
-#include "chapters/ch03_bsp_trees/exact_corner.hpp"
+#include <array>
 
 namespace space {
 

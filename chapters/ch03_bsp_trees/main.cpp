@@ -1,13 +1,5 @@
-/// Chapter 3: BSP trees with polygon splitting, by six choices of splitters and in four grades of care.
-/// Run   ch03_bsp_trees --out pictures
-/// Draw  ch03_bsp_trees --figure fig_03_01 --out figures
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
-
-#include <CLI/CLI.hpp>
-
+/// Chapter 3: BSP trees with polygon splitting, by six choices of splitters and in four grades of
+/// care. Run   ch03_bsp_trees --out pictures Draw  ch03_bsp_trees --figure fig_03_01 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "chapters/ch03_bsp_trees/figures/figures.hpp"
@@ -15,8 +7,13 @@
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
-#include "common/program/file.hpp"
 #include "common/program/report.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
 
 namespace space::ch03 {
 namespace {
@@ -47,11 +44,12 @@ ChapterOptions read_options(int argc, char** argv) {
             "  ch03_bsp_trees --quick --scene stadium --splitter free\n"
             "  ch03_bsp_trees --figure all --out figures");
     };
-    ChapterOptions options{parse_options(argc, argv,
-                                         {.name = "ch03_bsp_trees",
-                                          .about = "Chapter 3: BSP trees with polygon splitting",
-                                          .defaults = {.scene = default_scene, .width = 240, .height = 180}},
-                                         add_tree)};
+    ChapterOptions options{
+        parse_options(argc, argv,
+                      {.name = "ch03_bsp_trees",
+                       .about = "Chapter 3: BSP trees with polygon splitting",
+                       .defaults = {.scene = default_scene, .width = 240, .height = 180}},
+                      add_tree)};
     options.tree = tree;
     options.tree.splitter = splitters.at(splitter);
     if (options.small && options.scene == default_scene) options.scene = "lattice";
@@ -74,13 +72,15 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
     Progress naively("the same, naively", static_cast<std::size_t>(settings.height));
     const Rendering by_all = render(scene, Naive<>::build(triangles), settings, &naively);
 
-    const DepthBuffer painted = paint(bsp.tree(), options.tree.grade, scene.camera, options.width, options.height);
+    const DepthBuffer painted =
+        paint(bsp.tree(), options.tree.grade, scene.camera, options.width, options.height);
     const DepthBuffer nearest = z_buffer(triangles, scene.camera, options.width, options.height);
     // [pictures]
 
     std::uint64_t other_pixels = 0;
     for (int y = 0; y < options.height; ++y)
-        for (int x = 0; x < options.width; ++x) other_pixels += by_tree.image.at(x, y) != by_all.image.at(x, y);
+        for (int x = 0; x < options.width; ++x)
+            other_pixels += by_tree.image.at(x, y) != by_all.image.at(x, y);
     const Differences painter = differences(painted, nearest);
 
     print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
@@ -96,7 +96,8 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
     row("ray-triangle tests per ray", of_tree.triangles_tested, of_all.triangles_tested);
     table.print();
     fmt::print(
-        "\nThe pictures differ in {} of {} pixels. The painter, who knows no depths, shows another triangle\n"
+        "\nThe pictures differ in {} of {} pixels. The painter, who knows no depths, shows another "
+        "triangle\n"
         "than the z-buffer in {}; in {} more, two triangles lie at the same depth.\n",
         with_commas(other_pixels), with_commas(painter.pixels), with_commas(painter.wrong),
         with_commas(painter.same_depth));

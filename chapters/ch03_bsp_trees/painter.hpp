@@ -4,11 +4,11 @@
 /// exact arithmetic, so that the pictures are the same where the order is right.
 #pragma once
 
-#include <cstdint>
-
 #include "chapters/ch01_naive_ray_tracing/rasteriser.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/tiling.hpp"
+
+#include <cstdint>
 
 namespace space {
 
@@ -91,8 +91,9 @@ inline Image picture_of(const Scene& scene, const DepthBuffer& shown) {
             const Hit& hit = shown.at(x, y);
             const Ray ray =
                 camera_ray(scene.camera, frame, x + 0.5, y + 0.5, shown.width, shown.height);
-            image.at(x, y) = hit.t < infinity ? shade(scene, ray, hit, [](const Ray&) { return true; })
-                                              : scene.background;
+            image.at(x, y) = hit.t < infinity
+                                 ? shade(scene, ray, hit, [](const Ray&) { return true; })
+                                 : scene.background;
         }
     return image;
 }

@@ -1,6 +1,9 @@
 /// @file
-/// The planes (D = 3) and lines (D = 2) that a BSP tree splits by, and on which side of them a point lies.
+/// The planes (D = 3) and lines (D = 2) that a BSP tree splits by, and on which side of them a
+/// point lies.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,8 +11,6 @@
 #include <optional>
 #include <span>
 #include <vector>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -20,8 +21,12 @@ using DoublePoint = glm::vec<D, double>;
 template <int D>
 using Corners = std::array<Point<D>, D>;
 
-inline Corners<3> corners(const Triangle& triangle) { return {triangle.a, triangle.b, triangle.c}; }
-inline Corners<2> corners(const Segment& segment) { return {segment.a, segment.b}; }
+inline Corners<3> corners(const Triangle& triangle) {
+    return {triangle.a, triangle.b, triangle.c};
+}
+inline Corners<2> corners(const Segment& segment) {
+    return {segment.a, segment.b};
+}
 inline std::vector<Corners<3>> corners(std::span<const Triangle> triangles) {
     std::vector<Corners<3>> all;
     for (const Triangle& triangle : triangles) all.push_back(corners(triangle));
@@ -33,8 +38,9 @@ inline std::vector<Corners<2>> corners(std::span<const Segment> segments) {
     return all;
 }
 
-/// The plane through D points. Its front is the side that the normal points to: (b - a) x (c - a) in space, to the left
-/// of a -> b in the plane. Normal and distances are computed in double and not normalised.
+/// The plane through D points. Its front is the side that the normal points to: (b - a) x (c - a)
+/// in space, to the left of a -> b in the plane. Normal and distances are computed in double and
+/// not normalised.
 template <int D>
 struct SplitPlane {
     Corners<D> through;
@@ -63,10 +69,13 @@ struct SplitPlane {
         return sum;
     }
     /// Signed distance times |normal|; 0 on the plane.
-    double distance(const DoublePoint<D>& p) const { return glm::dot(normal, p - DoublePoint<D>(through[0])); }
+    double distance(const DoublePoint<D>& p) const {
+        return glm::dot(normal, p - DoublePoint<D>(through[0]));
+    }
 };
 
-/// The plane across `axis` at `position`: one that no polygon need lie in. Its front is the larger coordinate.
+/// The plane across `axis` at `position`: one that no polygon need lie in. Its front is the larger
+/// coordinate.
 template <int D>
 SplitPlane<D> axis_plane(int axis, float position) {
     Corners<D> points;
@@ -81,9 +90,10 @@ SplitPlane<D> axis_plane(int axis, float position) {
 }
 
 // [side_filter]
-/// The side of a point known to within `error` in every coordinate: 1 in front, -1 behind, nothing where double cannot
-/// tell. A term of the distance carries at most eight roundings (the differences, the products and sums of the
-/// normal, the product and the sums of the dot product); sixteen times u = 2^-53 covers them and the bound's own.
+/// The side of a point known to within `error` in every coordinate: 1 in front, -1 behind, nothing
+/// where double cannot tell. A term of the distance carries at most eight roundings (the
+/// differences, the products and sums of the normal, the product and the sums of the dot product);
+/// sixteen times u = 2^-53 covers them and the bound's own.
 template <int D>
 std::optional<int> side_filter(const SplitPlane<D>& plane, const DoublePoint<D>& p, double error) {
     constexpr double roundings = 16.0 * 0x1p-53;

@@ -1,23 +1,27 @@
 #include "chapters/ch03_bsp_trees/tiling.hpp"
 
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch03_bsp_trees/exact_point.hpp"
+#include "common/pcg32.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
-
-#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "chapters/ch03_bsp_trees/exact_point.hpp"
-#include "common/pcg32.hpp"
 
 namespace space {
 namespace {
 
 using ExactPoint = std::array<mpq_class, 3>;
 
-ExactPoint exact(const Double3& p) { return {mpq_class(p.x), mpq_class(p.y), mpq_class(p.z)}; }
+ExactPoint exact(const Double3& p) {
+    return {mpq_class(p.x), mpq_class(p.y), mpq_class(p.z)};
+}
 
-ExactPoint exact_corner(const BspTree<3>& tree, Grade grade, const Fragment<3>& fragment, std::size_t corner) {
-    if (grade != Grade::exact || is_exact(fragment.corners[corner])) return exact(fragment.corners[corner].at);
+ExactPoint exact_corner(const BspTree<3>& tree, Grade grade, const Fragment<3>& fragment,
+                        std::size_t corner) {
+    if (grade != Grade::exact || is_exact(fragment.corners[corner]))
+        return exact(fragment.corners[corner].at);
     return exact_point(meet_of(fragment, corner, tree.polygons, tree.planes));
 }
 
@@ -28,7 +32,9 @@ ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
     return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
             mpq_class(a[0] * b[1] - a[1] * b[0])};
 }
-mpq_class dot(const ExactPoint& a, const ExactPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+mpq_class dot(const ExactPoint& a, const ExactPoint& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Twice the area, as a vector along the normal.
 ExactPoint doubled_area(const std::vector<ExactPoint>& corners) {
@@ -43,7 +49,8 @@ ExactPoint doubled_area(const std::vector<ExactPoint>& corners) {
 double worst_area_error(const BspTree<3>& tree, Grade grade) {
     std::vector<ExactPoint> normals;
     for (const Corners<3>& polygon : tree.polygons)
-        normals.push_back(doubled_area({exact(Double3(polygon[0])), exact(Double3(polygon[1])), exact(Double3(polygon[2]))}));
+        normals.push_back(doubled_area(
+            {exact(Double3(polygon[0])), exact(Double3(polygon[1])), exact(Double3(polygon[2]))}));
     std::vector<mpq_class> sums(tree.polygons.size());
     for (const Fragment<3>& fragment : tree.fragments) {
         std::vector<ExactPoint> corners;
@@ -68,7 +75,8 @@ void count_cracks(const BspTree<3>& tree, Grade grade, Tiling& tiling) {
     std::map<std::pair<EdgeKey, std::int32_t>, std::vector<Cut>> cuts;  // by edge and plane
     for (const Fragment<3>& fragment : tree.fragments)
         for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
-            const std::size_t previous = (i + fragment.corners.size() - 1) % fragment.corners.size();
+            const std::size_t previous =
+                (i + fragment.corners.size() - 1) % fragment.corners.size();
             Carrier edge = fragment.corners[previous].carrier, plane = fragment.corners[i].carrier;
             if (plane.is_original()) std::swap(edge, plane);
             if (!edge.is_original() || plane.is_original()) continue;
@@ -87,18 +95,22 @@ void count_cracks(const BspTree<3>& tree, Grade grade, Tiling& tiling) {
 /// Evenly over the sphere: points of the ball, of which only the direction is kept.
 Double3 random_direction(Pcg32& random) {
     for (;;) {
-        const double x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f), z = random.uniform(-1.0f, 1.0f);
+        const double x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f),
+                     z = random.uniform(-1.0f, 1.0f);
         const double square = x * x + y * y + z * z;
         if (square > 0.0 && square <= 1.0) return Double3(x, y, z) / std::sqrt(square);
     }
 }
 
-int sign(double value) { return (value > 0.0) - (value < 0.0); }
+int sign(double value) {
+    return (value > 0.0) - (value < 0.0);
+}
 
 }  // namespace
 
 EdgeKey edge_key(const Corners<3>& polygon, int edge) {
-    const Point3 &a = polygon[static_cast<std::size_t>(edge)], &b = polygon[static_cast<std::size_t>((edge + 1) % 3)];
+    const Point3 &a = polygon[static_cast<std::size_t>(edge)],
+                 &b = polygon[static_cast<std::size_t>((edge + 1) % 3)];
     return std::min(EdgeKey{a.x, a.y, a.z, b.x, b.y, b.z}, EdgeKey{b.x, b.y, b.z, a.x, a.y, a.z});
 }
 
@@ -108,19 +120,22 @@ Tiling measure_tiling(const BspTree<3>& tree, Grade grade) {
     return tiling;
 }
 
-FragmentRays::FragmentRays(const BspTree<3>& tree, Grade grade) : tree_(tree), grade_(grade), fragments_(tree.polygons.size()) {
-    for (std::uint32_t i = 0; i < tree.fragments.size(); ++i) fragments_[tree.fragments[i].polygon].push_back(i);
+FragmentRays::FragmentRays(const BspTree<3>& tree, Grade grade)
+    : tree_(tree), grade_(grade), fragments_(tree.polygons.size()) {
+    for (std::uint32_t i = 0; i < tree.fragments.size(); ++i)
+        fragments_[tree.fragments[i].polygon].push_back(i);
 }
 
 bool FragmentRays::meets(const Ray& ray, std::uint32_t polygon) const {
     const auto& of_polygon = fragments_[polygon];
-    return std::any_of(of_polygon.begin(), of_polygon.end(), [&](std::uint32_t i) { return meets(ray, tree_.fragments[i]); });
+    return std::any_of(of_polygon.begin(), of_polygon.end(),
+                       [&](std::uint32_t i) { return meets(ray, tree_.fragments[i]); });
 }
 
 bool FragmentRays::meets(const Ray& ray, const Fragment<3>& fragment) const {
     for (std::size_t i = 2; i < fragment.corners.size(); ++i) {
-        const int a = side_of_edge(ray, fragment, 0, i - 1), b = side_of_edge(ray, fragment, i - 1, i),
-                  c = side_of_edge(ray, fragment, i, 0);
+        const int a = side_of_edge(ray, fragment, 0, i - 1),
+                  b = side_of_edge(ray, fragment, i - 1, i), c = side_of_edge(ray, fragment, i, 0);
         if (a == 0 && b == 0 && c == 0) continue;  // seen edge-on
         if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) return true;
     }
@@ -128,21 +143,25 @@ bool FragmentRays::meets(const Ray& ray, const Fragment<3>& fragment) const {
 }
 
 // [side_of_edge]
-/// In double, a term carries at most six roundings and the errors of two corners: sixteen times u = 2^-53 times the product
-/// of the three lengths covers the former, and (|d| times an error of 3 e in one-norm) times the other length the latter.
-int FragmentRays::side_of_edge(const Ray& ray, const Fragment<3>& fragment, std::size_t p, std::size_t q) const {
+/// In double, a term carries at most six roundings and the errors of two corners: sixteen times u =
+/// 2^-53 times the product of the three lengths covers the former, and (|d| times an error of 3 e
+/// in one-norm) times the other length the latter.
+int FragmentRays::side_of_edge(const Ray& ray, const Fragment<3>& fragment, std::size_t p,
+                               std::size_t q) const {
     constexpr double roundings = 16.0 * 0x1p-53;
     const Double3 origin(ray.origin), direction(ray.direction);
     const Corner<3>&to_p = fragment.corners[p], &to_q = fragment.corners[q];
     const Double3 op = to_p.at - origin, oq = to_q.at - origin;
     const auto length = [](const Double3& v) { return SplitPlane<3>::one_norm(v); };
     const double volume = glm::dot(glm::cross(op, oq), direction);
-    const double bound = length(direction) * (roundings * length(op) * length(oq) + 4.0 * to_p.error * length(oq) +
-                                              4.0 * to_q.error * length(op) + 16.0 * to_p.error * to_q.error);
+    const double bound =
+        length(direction) * (roundings * length(op) * length(oq) + 4.0 * to_p.error * length(oq) +
+                             4.0 * to_q.error * length(op) + 16.0 * to_p.error * to_q.error);
     if (std::abs(volume) > bound) return sign(volume);
 
     const ExactPoint from = exact(origin);
-    return sgn(dot(cross(exact_corner(tree_, grade_, fragment, p) - from, exact_corner(tree_, grade_, fragment, q) - from),
+    return sgn(dot(cross(exact_corner(tree_, grade_, fragment, p) - from,
+                         exact_corner(tree_, grade_, fragment, q) - from),
                    exact(direction)));
 }
 // [side_of_edge]
@@ -154,7 +173,8 @@ SlippedRays FragmentRays::at_old_edges(std::uint64_t count, std::uint64_t seed) 
     std::vector<Target> targets;
     for (const auto& [edge, of] : edges)
         if (of.size() == 2)
-            targets.push_back({{edge[0], edge[1], edge[2]}, {edge[3], edge[4], edge[5]}, {of[0], of[1]}});
+            targets.push_back(
+                {{edge[0], edge[1], edge[2]}, {edge[3], edge[4], edge[5]}, {of[0], of[1]}});
     return slipped(targets, count, seed);
 }
 
@@ -163,12 +183,14 @@ SlippedRays FragmentRays::at_cuts(std::uint64_t count, std::uint64_t seed) const
     for (const Fragment<3>& fragment : tree_.fragments)
         for (std::size_t i = 0; i < fragment.corners.size(); ++i)
             if (!fragment.corners[i].carrier.is_original())
-                targets.push_back({fragment.corners[i].at, fragment.corners[(i + 1) % fragment.corners.size()].at,
+                targets.push_back({fragment.corners[i].at,
+                                   fragment.corners[(i + 1) % fragment.corners.size()].at,
                                    {fragment.polygon, fragment.polygon}});
     return slipped(targets, count, seed);
 }
 
-SlippedRays FragmentRays::slipped(const std::vector<Target>& targets, std::uint64_t count, std::uint64_t seed) const {
+SlippedRays FragmentRays::slipped(const std::vector<Target>& targets, std::uint64_t count,
+                                  std::uint64_t seed) const {
     SlippedRays result;
     if (targets.empty()) return result;
     Aabb box;

@@ -1,14 +1,14 @@
 #include "chapters/ch12_comparison/lab_options.hpp"
 
+#include "common/program/error.hpp"
+
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 #include <thread>
-
-#include "common/program/error.hpp"
 
 namespace space {
 namespace {
@@ -39,7 +39,9 @@ std::vector<std::string> split(std::string_view text) {
 }
 
 Camera parse_camera(const std::string& text) {
-    const auto fault = [&](std::string_view what) { return usage_error(fmt::format("--camera {}: {}", text, what)); };
+    const auto fault = [&](std::string_view what) {
+        return usage_error(fmt::format("--camera {}: {}", text, what));
+    };
     std::vector<float> numbers;
     for (const std::string& part : split(text)) {
         float number = 0.0f;
@@ -68,17 +70,24 @@ LabOptions parse_lab_options(int argc, char** argv) {
     std::optional<std::string> camera_numbers;
     CLI::App app("Any structure of the book on your own mesh and rays.", "lab");
     app.footer(formats);
-    auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF")->type_name("FILE");
-    app.add_option("--scene", options.common.scene, "a scene by name")->type_name("NAME[:SIZE]")->excludes(mesh);
-    auto* rays = app.add_option("--rays", options.rays, "trace these rays; default: through the camera's pixels");
-    auto* camera = app.add_option("--camera", camera_numbers,
-                                  "eye, target, vertical field of view in degrees; default: the scene's own");
+    auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF")
+                     ->type_name("FILE");
+    app.add_option("--scene", options.common.scene, "a scene by name")
+        ->type_name("NAME[:SIZE]")
+        ->excludes(mesh);
+    auto* rays = app.add_option("--rays", options.rays,
+                                "trace these rays; default: through the camera's pixels");
+    auto* camera =
+        app.add_option("--camera", camera_numbers,
+                       "eye, target, vertical field of view in degrees; default: the scene's own");
     auto* diffuse = add_whole_number(
         app, "--diffuse", 1, max_rays, [&](std::uint64_t n) { options.diffuse = n; },
         "trace N rays that leave the camera rays' hits, cosine-distributed (by --seed)");
     add_common_options(app, options.common);
-    app.add_option("--structure", structures, "NAME[,NAME...], 'all' or 'list'")->capture_default_str();
-    app.add_option("--triangle-test", options.triangle_test, "NAME or 'list'; default: each structure's first");
+    app.add_option("--structure", structures, "NAME[,NAME...], 'all' or 'list'")
+        ->capture_default_str();
+    app.add_option("--triangle-test", options.triangle_test,
+                   "NAME or 'list'; default: each structure's first");
     app.add_option("--query", query, "the nearest hit, or whether there is any")
         ->check(CLI::IsMember({"closest", "any"}))
         ->capture_default_str();
@@ -87,20 +96,24 @@ LabOptions parse_lab_options(int argc, char** argv) {
         [&](std::uint64_t n) { options.build_threads = static_cast<unsigned>(n); },
         "for builders that use several; default: as --threads");
     add_whole_number(
-        app, "--repeat", 1, max_repeat, [&](std::uint64_t n) { options.repeat = static_cast<int>(n); },
+        app, "--repeat", 1, max_repeat,
+        [&](std::uint64_t n) { options.repeat = static_cast<int>(n); },
         "timed runs of each build and trace, in turn; their medians count")
         ->default_str(fmt::format("{}", options.repeat));
     app.add_option("--hits", options.hits, "write the answers to this file")->type_name("FILE");
-    app.add_option("--json", options.json, "write the measurements to this file")->type_name("FILE");
+    app.add_option("--json", options.json, "write the measurements to this file")
+        ->type_name("FILE");
     app.add_flag("--check", options.check, "compare the answers with naive tracing");
-    rays->type_name("FILE")->excludes(camera)->excludes(diffuse)->excludes(app.get_option("--size"));
+    rays->type_name("FILE")->excludes(camera)->excludes(diffuse)->excludes(
+        app.get_option("--size"));
     camera->type_name("ex,ey,ez,tx,ty,tz,fov");
     parse_command_line(app, argc, argv);
 
     options.structures = split(structures);
     options.query = query == "any" ? Query::any : Query::closest;
     if (camera_numbers) options.camera = parse_camera(*camera_numbers);
-    if (options.common.threads == 0) options.common.threads = std::max(1u, std::thread::hardware_concurrency());
+    if (options.common.threads == 0)
+        options.common.threads = std::max(1u, std::thread::hardware_concurrency());
     if (options.build_threads == 0) options.build_threads = options.common.threads;
     return options;
 }

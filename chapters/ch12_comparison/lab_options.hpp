@@ -2,16 +2,16 @@
 /// The lab's command line.
 #pragma once
 
+#include "chapters/ch12_comparison/structures.hpp"
+#include "common/camera.hpp"
+#include "common/program/options.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "chapters/ch12_comparison/structures.hpp"
-#include "common/camera.hpp"
-#include "common/program/options.hpp"
 
 namespace space {
 

@@ -1,14 +1,14 @@
-/// Chapter 12: which structure does a scene need? The comparison comes when the structures stand; the lab is here.
-/// Run   ch12_comparison lab --scene sphereflake --structure all --check
-#include <fmt/format.h>
-
-#include <string_view>
-
+/// Chapter 12: which structure does a scene need? The comparison comes when the structures stand;
+/// the lab is here. Run   ch12_comparison lab --scene sphereflake --structure all --check
 #include "chapters/ch12_comparison/lab.hpp"
 #include "common/program/error.hpp"
 #include "common/program/figure.hpp"
 #include "common/program/options.hpp"
 #include "common/program/report.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
 
 namespace {
 
@@ -17,13 +17,16 @@ int lab(int argc, char** argv) {
 }
 
 int comparison(int argc, char** argv) {
-    const space::Options options = space::parse_options(
-        argc, argv,
-        {.name = "ch12_comparison", .about = "Chapter 12: the lab (ch12_comparison lab --help)", .defaults = {}});
+    const space::Options options =
+        space::parse_options(argc, argv,
+                             {.name = "ch12_comparison",
+                              .about = "Chapter 12: the lab (ch12_comparison lab --help)",
+                              .defaults = {}});
     if (options.figure) return space::make_figures({}, options);
     space::print_heading("Chapter 12: comparison");
     fmt::print(
-        "The comparison of all structures on all scenes is not written yet. The lab runs those that there are on\n"
+        "The comparison of all structures on all scenes is not written yet. The lab runs those "
+        "that there are on\n"
         "your own mesh and rays: ch12_comparison lab --help\n\n");
     space::Table table({"structure", "what it is"});
     for (const space::Structure& structure : space::structures())
@@ -35,6 +38,7 @@ int comparison(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 1 && std::string_view(argv[1]) == "lab") return space::run_program("lab", lab, argc - 1, argv + 1);
+    if (argc > 1 && std::string_view(argv[1]) == "lab")
+        return space::run_program("lab", lab, argc - 1, argv + 1);
     return space::run_program("ch12_comparison", comparison, argc, argv);
 }

@@ -1,5 +1,10 @@
 #include "chapters/ch12_comparison/rays.hpp"
 
+#include "chapters/ch01_naive_ray_tracing/shading.hpp"
+#include "common/pcg32.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -7,19 +12,15 @@
 #include <cmath>
 #include <cstring>
 
-#include "chapters/ch01_naive_ray_tracing/shading.hpp"
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
-#include "common/pcg32.hpp"
-
 namespace space {
 namespace {
 
 // The files' records are the machine's own numbers.
 static_assert(std::endian::native == std::endian::little && sizeof(HitRecord) == 16);
 
-/// Cosine-distributed about the unit normal (Malley's method: a point of the unit disc, lifted to the hemisphere). The
-/// disc is sampled by rejection: no sine or cosine, whose last bits differ between libraries.
+/// Cosine-distributed about the unit normal (Malley's method: a point of the unit disc, lifted to
+/// the hemisphere). The disc is sampled by rejection: no sine or cosine, whose last bits differ
+/// between libraries.
 Vector3 cosine_direction(const Double3& normal, Pcg32& random) {
     double x, y, squared_radius;
     do {
@@ -29,7 +30,8 @@ Vector3 cosine_direction(const Double3& normal, Pcg32& random) {
     } while (squared_radius > 1.0);
     const Double3 axis = std::abs(normal.x) < 0.5 ? Double3(1.0, 0.0, 0.0) : Double3(0.0, 1.0, 0.0);
     const Double3 tangent = glm::normalize(glm::cross(axis, normal));
-    return Vector3(x * tangent + y * glm::cross(normal, tangent) + std::sqrt(1.0 - squared_radius) * normal);
+    return Vector3(x * tangent + y * glm::cross(normal, tangent) +
+                   std::sqrt(1.0 - squared_radius) * normal);
 }
 
 }  // namespace
@@ -38,18 +40,23 @@ std::vector<Ray> read_rays(const std::filesystem::path& file) {
     using Record = std::array<float, 8>;
     const std::string bytes = read_file(file);
     if (bytes.size() % sizeof(Record) != 0)
-        throw input_error(fmt::format("{}: {} bytes are not a whole number of rays, which have {} bytes each",
-                                      file.string(), bytes.size(), sizeof(Record)));
+        throw input_error(
+            fmt::format("{}: {} bytes are not a whole number of rays, which have {} bytes each",
+                        file.string(), bytes.size(), sizeof(Record)));
     const std::size_t count = bytes.size() / sizeof(Record);
     if (count == 0) throw input_error(fmt::format("{}: holds no ray", file.string()));
     if (count > max_rays)
-        throw input_error(fmt::format("{}: holds {} rays, more than {}", file.string(), count, max_rays));
+        throw input_error(
+            fmt::format("{}: holds {} rays, more than {}", file.string(), count, max_rays));
     std::vector<Ray> rays;
     rays.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         Record r;
         std::memcpy(r.data(), bytes.data() + i * sizeof r, sizeof r);
-        rays.push_back({.origin = {r[0], r[1], r[2]}, .direction = {r[4], r[5], r[6]}, .tmin = r[3], .tmax = r[7]});
+        rays.push_back({.origin = {r[0], r[1], r[2]},
+                        .direction = {r[4], r[5], r[6]},
+                        .tmin = r[3],
+                        .tmax = r[7]});
     }
     return rays;
 }
@@ -63,12 +70,14 @@ std::vector<Ray> camera_rays(const Camera& camera, int width, int height) {
     std::vector<Ray> rays;
     rays.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) rays.push_back(camera_ray(camera, frame, x + 0.5, y + 0.5, width, height));
+        for (int x = 0; x < width; ++x)
+            rays.push_back(camera_ray(camera, frame, x + 0.5, y + 0.5, width, height));
     return rays;
 }
 
 std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<const Ray> rays,
-                              std::span<const HitRecord> hits, std::size_t count, std::uint64_t seed) {
+                              std::span<const HitRecord> hits, std::size_t count,
+                              std::uint64_t seed) {
     std::vector<std::size_t> starts;
     for (std::size_t i = 0; i < hits.size(); ++i)
         if (hits[i].is_hit()) starts.push_back(i);
@@ -82,7 +91,8 @@ std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<con
         const Triangle& triangle = triangles[face];
         const Double3 n = normal_towards(triangle, rays[start]);
         const Double3 point = hit_point(triangle, {.t = t, .triangle = face, .u = u, .v = v});
-        diffuse.push_back({.origin = shadow_origin(triangle, point, n), .direction = cosine_direction(n, random)});
+        diffuse.push_back({.origin = shadow_origin(triangle, point, n),
+                           .direction = cosine_direction(n, random)});
     }
     return diffuse;
 }

@@ -2,15 +2,15 @@
 /// The rays that the lab traces, and the files that rays and hits travel in.
 #pragma once
 
+#include "common/accelerator.hpp"
+#include "common/camera.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "common/accelerator.hpp"
-#include "common/camera.hpp"
 
 namespace space {
 
@@ -19,13 +19,17 @@ struct HitRecord {
     float t, u, v;
     std::uint32_t triangle;
 
-    static constexpr std::uint32_t no_triangle = 0xFFFFFFFF;    ///< a miss, whose t is infinity
-    static constexpr std::uint32_t some_triangle = 0xFFFFFFFE;  ///< a hit that is not told: the query was `any`
+    static constexpr std::uint32_t no_triangle = 0xFFFFFFFF;  ///< a miss, whose t is infinity
+    static constexpr std::uint32_t some_triangle =
+        0xFFFFFFFE;  ///< a hit that is not told: the query was `any`
 
     static HitRecord closest(const std::optional<Hit>& hit) {
-        return hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle} : HitRecord{infinity, 0.0f, 0.0f, no_triangle};
+        return hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle}
+                   : HitRecord{infinity, 0.0f, 0.0f, no_triangle};
     }
-    static HitRecord any(bool hit) { return hit ? HitRecord{0.0f, 0.0f, 0.0f, some_triangle} : closest({}); }
+    static HitRecord any(bool hit) {
+        return hit ? HitRecord{0.0f, 0.0f, 0.0f, some_triangle} : closest({});
+    }
 
     bool is_hit() const { return triangle != no_triangle; }
     bool operator==(const HitRecord&) const = default;
@@ -34,9 +38,10 @@ struct HitRecord {
 /// More rays than this (3 GB with their hits) are refused.
 inline constexpr std::size_t max_rays = std::size_t{1} << 26;
 
-/// Reads records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. The numbers are taken as they are:
-/// a ray that is not valid (NaN, zero direction, tmin > tmax) hits nothing.
-/// @throws Error (bad_input) for a file that is missing, empty, too large or not made of whole records
+/// Reads records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. The numbers are taken
+/// as they are: a ray that is not valid (NaN, zero direction, tmin > tmax) hits nothing.
+/// @throws Error (bad_input) for a file that is missing, empty, too large or not made of whole
+/// records
 std::vector<Ray> read_rays(const std::filesystem::path& file);
 
 /// The bytes of a hits file.
@@ -45,9 +50,11 @@ std::string hits_bytes(std::span<const HitRecord> hits);
 /// One ray through the centre of each pixel, row by row from the top left.
 std::vector<Ray> camera_rays(const Camera& camera, int width, int height);
 
-/// `count` rays that leave the surface where the given rays hit it, spread evenly over the hits in their order, each
-/// cosine-distributed about the normal on the side that its ray came from. None where there is no hit.
+/// `count` rays that leave the surface where the given rays hit it, spread evenly over the hits in
+/// their order, each cosine-distributed about the normal on the side that its ray came from. None
+/// where there is no hit.
 std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<const Ray> rays,
-                              std::span<const HitRecord> hits, std::size_t count, std::uint64_t seed);
+                              std::span<const HitRecord> hits, std::size_t count,
+                              std::uint64_t seed);
 
 }  // namespace space

@@ -1,7 +1,13 @@
 /// @file
-/// The structures of the book as the lab sees them: a name, and a function that builds one and traces whole batches
-/// of rays through it. A structure's type is erased at the batch: no ray pays for an indirect call.
+/// The structures of the book as the lab sees them: a name, and a function that builds one and
+/// traces whole batches of rays through it. A structure's type is erased at the batch: no ray pays
+/// for an indirect call.
 #pragma once
+
+#include "chapters/ch12_comparison/rays.hpp"
+#include "common/accelerator.hpp"
+#include "common/parallel.hpp"
+#include "common/program/progress.hpp"
 
 #include <functional>
 #include <memory>
@@ -10,11 +16,6 @@
 #include <string_view>
 #include <type_traits>
 #include <vector>
-
-#include "chapters/ch12_comparison/rays.hpp"
-#include "common/accelerator.hpp"
-#include "common/parallel.hpp"
-#include "common/program/progress.hpp"
 
 namespace space {
 
@@ -33,9 +34,10 @@ struct Batch {
 /// A structure that stands, whatever its type.
 struct BuiltStructure {
     std::function<TreeShape()> shape;
-    std::function<void(const Batch&)> trace;             ///< without counting: what is timed
-    std::function<TraversalCounts(const Batch&)> count;  ///< the same answers, and the work behind them
-    unsigned build_threads = 1;                          ///< that the builder could use
+    std::function<void(const Batch&)> trace;  ///< without counting: what is timed
+    std::function<TraversalCounts(const Batch&)>
+        count;                   ///< the same answers, and the work behind them
+    unsigned build_threads = 1;  ///< that the builder could use
 };
 
 /// A structure with one of the triangle tests.
@@ -57,38 +59,45 @@ const std::vector<Structure>& structures();
 /// Answers the query for each ray of the batch; the answers do not depend on the number of threads.
 template <class Counts, Accelerator A>
 Counts trace(const A& accelerator, const Batch& batch) {
-    // Rays that a thread takes at a time: many enough to hide the taking, few enough to share out a short batch.
+    // Rays that a thread takes at a time: many enough to hide the taking, few enough to share out a
+    // short batch.
     constexpr std::size_t block_size = 128;
     Counts total;
     std::mutex total_lock;
-    parallel_for((batch.rays.size() + block_size - 1) / block_size, batch.threads, 1, [&](std::size_t block) {
-        const std::size_t first = block * block_size, last = std::min(first + block_size, batch.rays.size());
-        Counts counts;
-        if (batch.query == Query::closest)
-            for (std::size_t i = first; i < last; ++i)
-                batch.hits[i] = HitRecord::closest(accelerator.closest_hit(batch.rays[i], counts));
-        else
-            for (std::size_t i = first; i < last; ++i)
-                batch.hits[i] = HitRecord::any(accelerator.any_hit(batch.rays[i], counts));
-        if (batch.progress) batch.progress->step(last - first);
-        if constexpr (std::is_same_v<Counts, TraversalCounts>) {
-            const std::lock_guard guard(total_lock);
-            total += counts;
-        }
-    });
+    parallel_for((batch.rays.size() + block_size - 1) / block_size, batch.threads, 1,
+                 [&](std::size_t block) {
+                     const std::size_t first = block * block_size,
+                                       last = std::min(first + block_size, batch.rays.size());
+                     Counts counts;
+                     if (batch.query == Query::closest)
+                         for (std::size_t i = first; i < last; ++i)
+                             batch.hits[i] =
+                                 HitRecord::closest(accelerator.closest_hit(batch.rays[i], counts));
+                     else
+                         for (std::size_t i = first; i < last; ++i)
+                             batch.hits[i] =
+                                 HitRecord::any(accelerator.any_hit(batch.rays[i], counts));
+                     if (batch.progress) batch.progress->step(last - first);
+                     if constexpr (std::is_same_v<Counts, TraversalCounts>) {
+                         const std::lock_guard guard(total_lock);
+                         total += counts;
+                     }
+                 });
     return total;
 }
 // [batch]
 
 /// Builds an A; `threads` matters to a Config that has a field of that name.
 template <Accelerator A>
-BuiltStructure build_configured(std::span<const Triangle> triangles, unsigned threads, typename A::Config config) {
+BuiltStructure build_configured(std::span<const Triangle> triangles, unsigned threads,
+                                typename A::Config config) {
     unsigned build_threads = 1;
     if constexpr (requires { config.threads = threads; }) config.threads = build_threads = threads;
     const auto structure = std::make_shared<const A>(A::build(triangles, config));
     return {.shape = [structure] { return structure->shape(); },
             .trace = [structure](const Batch& batch) { trace<NoCounts>(*structure, batch); },
-            .count = [structure](const Batch& batch) { return trace<TraversalCounts>(*structure, batch); },
+            .count = [structure](
+                         const Batch& batch) { return trace<TraversalCounts>(*structure, batch); },
             .build_threads = build_threads};
 }
 

@@ -1,11 +1,18 @@
 /// @file
-/// Mesh files. CGAL's polygon-soup readers (LGPL, headers only) do the reading. Tried beside them was assimp 5.2: it
-/// silently turns an index that is out of range in a PLY or OFF file into 0, accepts a truncated PLY, copies the
-/// vertices of an OBJ once per corner and groups its faces by material, so that neither keeps the file's order.
+/// Mesh files. CGAL's polygon-soup readers (LGPL, headers only) do the reading. Tried beside them
+/// was assimp 5.2: it silently turns an index that is out of range in a PLY or OFF file into 0,
+/// accepts a truncated PLY, copies the vertices of an OBJ once per corner and groups its faces by
+/// material, so that neither keeps the file's order.
 ///
-/// CGAL's readers say neither what is wrong nor where, believe any count in a header, and read some lines wrongly
-/// (OBJ: tabs, indices like 1.5; STL: a NaN is merged with another vertex). Therefore each format has a check
-/// that goes over the file first: after it every count fits into the file and every index and coordinate is sound.
+/// CGAL's readers say neither what is wrong nor where, believe any count in a header, and read some
+/// lines wrongly (OBJ: tabs, indices like 1.5; STL: a NaN is merged with another vertex). Therefore
+/// each format has a check that goes over the file first: after it every count fits into the file
+/// and every index and coordinate is sound.
+#include "common/mesh.hpp"
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+
+#include <boost/container/small_vector.hpp>
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
@@ -14,7 +21,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -22,10 +28,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
-#include "common/mesh.hpp"
 
 namespace space {
 namespace {
@@ -39,12 +41,15 @@ struct Source {
     std::string content;
     std::vector<std::size_t> joined = {};  ///< places of line ends that a backslash took away
 
-    [[noreturn]] void fail(const std::string& fault) const { throw input_error(fmt::format("{}: {}", name, fault)); }
+    [[noreturn]] void fail(const std::string& fault) const {
+        throw input_error(fmt::format("{}: {}", name, fault));
+    }
     /// `where` points into the content.
     [[noreturn]] void fail_at(const char* where, const std::string& fault) const {
         const auto lines = 1 + std::count(content.data(), where, '\n') +
-                           std::count_if(joined.begin(), joined.end(),
-                                         [&](std::size_t place) { return content.data() + place < where; });
+                           std::count_if(joined.begin(), joined.end(), [&](std::size_t place) {
+                               return content.data() + place < where;
+                           });
         throw input_error(fmt::format("{}:{}: {}", name, lines, fault));
     }
     std::string_view view() const { return content; }
@@ -53,7 +58,8 @@ struct Source {
 
 constexpr std::string_view blanks = " \t\r\v\f", white_space = " \t\r\v\f\n";
 
-/// Takes the first word off the text; empty at its end. A word shows at most this many characters in a message.
+/// Takes the first word off the text; empty at its end. A word shows at most this many characters
+/// in a message.
 std::string_view take_word(std::string_view& text, std::string_view separators = blanks) {
     text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
     const std::string_view word = text.substr(0, text.find_first_of(separators));
@@ -90,7 +96,8 @@ void check_coordinate(const Source& source, std::string_view word, const char* w
     double number = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error == std::errc::result_out_of_range)
-        number = std::strtod(std::string(digits).c_str(), nullptr);  // too large: infinite; too small: 0
+        number =
+            std::strtod(std::string(digits).c_str(), nullptr);  // too large: infinite; too small: 0
     else if (error != std::errc{} || end != digits.data() + digits.size())
         source.fail_at(where, fmt::format("{} is not a number", quote(word)));
     if (!std::isfinite(static_cast<float>(number)))
@@ -101,7 +108,8 @@ void check_coordinates(const Source& source, std::string_view line, const char* 
     for (int axis = 0; axis < 3; ++axis) check_coordinate(source, take_word(line), where);
 }
 
-/// Wavefront OBJ. Brings the text into the form that the reader knows, then looks at vertices and faces.
+/// Wavefront OBJ. Brings the text into the form that the reader knows, then looks at vertices and
+/// faces.
 void check_obj(Source& source) {
     std::string& text = source.content;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -122,32 +130,39 @@ void check_obj(Source& source) {
             check_coordinates(source, line, where);
             ++vertices;
         } else if (keyword == "l") {
-            text[static_cast<std::size_t>(where - text.data())] = '#';  // the reader stumbles over polylines
+            text[static_cast<std::size_t>(where - text.data())] =
+                '#';  // the reader stumbles over polylines
         } else if (keyword == "f") {
             ++faces;
             int corners = 0;
-            for (std::string_view word; !(word = take_word(line)).empty() && word.front() != '#'; ++corners) {
+            for (std::string_view word; !(word = take_word(line)).empty() && word.front() != '#';
+                 ++corners) {
                 constexpr std::size_t longest_corner =
                     100;  // characters of vertex/texture/normal; the reader's limit is 256
                 std::int64_t index = 0;
-                if (!parse_integer(word.substr(0, word.find('/')), index) || word.size() > longest_corner)
+                if (!parse_integer(word.substr(0, word.find('/')), index) ||
+                    word.size() > longest_corner)
                     source.fail_at(where, fmt::format("{} is not a corner of a face", quote(word)));
                 if (index == 0) source.fail_at(where, "vertex index 0, but OBJ counts from 1");
                 if (index < -vertices)
                     source.fail_at(where,
-                                   fmt::format("vertex index {}, but {} vertices stand before it", index, vertices));
+                                   fmt::format("vertex index {}, but {} vertices stand before it",
+                                               index, vertices));
                 if (index > largest) {
                     largest = index;
                     largest_at = where;
                 }
             }
             if (corners < 3)
-                source.fail_at(where, fmt::format("a face needs three corners or more, this one has {}", corners));
+                source.fail_at(
+                    where,
+                    fmt::format("a face needs three corners or more, this one has {}", corners));
         }
     }
     if (vertices > 0 && faces == 0) source.fail("the file has no faces");
     if (largest > vertices)
-        source.fail_at(largest_at, fmt::format("vertex index {}, but the file has {} vertices", largest, vertices));
+        source.fail_at(largest_at, fmt::format("vertex index {}, but the file has {} vertices",
+                                               largest, vertices));
 }
 
 /// Takes the next word of an OFF header; comments and line ends may stand between its words.
@@ -178,48 +193,59 @@ void check_off(Source& source) {
     if (kind != "OFF") {
         if (whole_kind.ends_with("OFF"))
             source.fail_at(whole_kind.data(),
-                           fmt::format("{} files are not read, only OFF with three coordinates", quote(whole_kind)));
+                           fmt::format("{} files are not read, only OFF with three coordinates",
+                                       quote(whole_kind)));
         source.fail("not an OFF file: it does not begin with OFF");
     }
-    // Normals, colours and texture coordinates are read over at the ends of the lines; told of colours, the reader
-    // would read past the end of a line that has none.
-    std::fill_n(source.content.begin() + (whole_kind.data() - source.content.data()), kind.data() - whole_kind.data(),
-                ' ');
+    // Normals, colours and texture coordinates are read over at the ends of the lines; told of
+    // colours, the reader would read past the end of a line that has none.
+    std::fill_n(source.content.begin() + (whole_kind.data() - source.content.data()),
+                kind.data() - whole_kind.data(), ' ');
     std::int64_t counts[3];
     constexpr const char* names[3] = {"vertices", "faces", "edges"};
-    constexpr std::int64_t fewest_bytes[3] = {6, 6, 1};  // "0 0 0\n", "3 0 0 0": bytes that one takes at least
+    constexpr std::int64_t fewest_bytes[3] = {
+        6, 6, 1};  // "0 0 0\n", "3 0 0 0": bytes that one takes at least
     for (int i = 0; i < 3; ++i) {
         const std::string_view word = take_off_word(rest);
-        if (word == "BINARY") source.fail("binary OFF files are not read: convert it to text or to PLY");
+        if (word == "BINARY")
+            source.fail("binary OFF files are not read: convert it to text or to PLY");
         if (!parse_integer(word, counts[i]) || counts[i] < 0)
-            source.fail_at(word.data(), fmt::format("{} is not a number of {}", quote(word), names[i]));
+            source.fail_at(word.data(),
+                           fmt::format("{} is not a number of {}", quote(word), names[i]));
         if (counts[i] > std::int64_t(source.content.size()) / fewest_bytes[i])
-            source.fail_at(word.data(), fmt::format("the header promises {} {}, more than fit into a file of {} bytes",
-                                                    counts[i], names[i], source.content.size()));
+            source.fail_at(
+                word.data(),
+                fmt::format("the header promises {} {}, more than fit into a file of {} bytes",
+                            counts[i], names[i], source.content.size()));
     }
     for (std::int64_t i = 0; i < counts[0]; ++i) {
         const std::string_view line = take_off_line(rest);
-        if (line.empty()) source.fail(fmt::format("the file ends after {} of {} vertices", i, counts[0]));
+        if (line.empty())
+            source.fail(fmt::format("the file ends after {} of {} vertices", i, counts[0]));
         check_coordinates(source, line, line.data());
     }
     for (std::int64_t i = 0; i < counts[1]; ++i) {
         std::string_view line = take_off_line(rest);
         const char* const where = line.data();
-        if (line.empty()) source.fail(fmt::format("the file ends after {} of {} faces", i, counts[1]));
+        if (line.empty())
+            source.fail(fmt::format("the file ends after {} of {} faces", i, counts[1]));
         std::int64_t corners = 0, index = 0;
         const std::string_view word = take_word(line);
         if (!parse_integer(word, corners))
             source.fail_at(where, fmt::format("{} is not a number of corners", quote(word)));
         if (corners < 3)
-            source.fail_at(where, fmt::format("a face needs three corners or more, this one has {}", corners));
+            source.fail_at(
+                where, fmt::format("a face needs three corners or more, this one has {}", corners));
         for (std::int64_t corner = 0; corner < corners; ++corner) {
             const std::string_view index_word = take_word(line);
             if (index_word.empty())
-                source.fail_at(where, fmt::format("the face has {} corners, not {}", corner, corners));
+                source.fail_at(where,
+                               fmt::format("the face has {} corners, not {}", corner, corners));
             if (!parse_integer(index_word, index))
                 source.fail_at(where, fmt::format("{} is not a vertex index", quote(index_word)));
             if (index < 0 || index >= counts[0])
-                source.fail_at(where, fmt::format("vertex index {}, but the file has {} vertices", index, counts[0]));
+                source.fail_at(where, fmt::format("vertex index {}, but the file has {} vertices",
+                                                  index, counts[0]));
         }
     }
 }
@@ -233,25 +259,30 @@ void check_stl(Source& source) {
     const std::uint64_t promised = header + std::uint64_t{record} * count;
     std::string_view rest = source.view();
     std::string first_word(take_word(rest, white_space));
-    std::transform(first_word.begin(), first_word.end(), first_word.begin(), [](char c) { return char(c | 0x20); });
+    std::transform(first_word.begin(), first_word.end(), first_word.begin(),
+                   [](char c) { return char(c | 0x20); });
 
     if (text.size() >= header && (text.size() == promised || first_word != "solid")) {
         if (promised > text.size())
-            source.fail(fmt::format("the header promises {} triangles, which take {} bytes, but the file has {}", count,
-                                    promised, text.size()));
+            source.fail(fmt::format(
+                "the header promises {} triangles, which take {} bytes, but the file has {}", count,
+                promised, text.size()));
         for (std::uint32_t i = 0; i < count; ++i)
             for (std::size_t k = 0; k < 9; ++k) {
                 float coordinate;
-                std::memcpy(&coordinate, text.data() + header + record * i + normal + sizeof coordinate * k,
+                std::memcpy(&coordinate,
+                            text.data() + header + record * i + normal + sizeof coordinate * k,
                             sizeof coordinate);
                 if (!std::isfinite(coordinate))
-                    source.fail(fmt::format("triangle {}: the coordinate {} is not a finite float", i, coordinate));
+                    source.fail(fmt::format("triangle {}: the coordinate {} is not a finite float",
+                                            i, coordinate));
             }
         text.replace(0, 80, 80, '\0');  // a header that begins with "solid" would be taken for text
         return;
     }
 
-    if (first_word != "solid") source.fail("not an STL file: neither its size fits, nor does it begin with 'solid'");
+    if (first_word != "solid")
+        source.fail("not an STL file: neither its size fits, nor does it begin with 'solid'");
     for (char& c : text)
         if (c >= 'A' && c <= 'Z') c = char(c | 0x20);
     enum { outside, in_solid, in_facet } state = outside;
@@ -263,7 +294,8 @@ void check_stl(Source& source) {
             if (state == in_facet || (word == "solid") == (state == in_solid))
                 source.fail_at(where, fmt::format("'{}' out of place", word));
             state = word == "solid" ? in_solid : outside;
-            const std::string_view solid_name = take_line(rest);  // words of a name are not commands
+            const std::string_view solid_name =
+                take_line(rest);  // words of a name are not commands
             std::fill_n(text.begin() + (solid_name.data() - text.data()), solid_name.size(), ' ');
         } else if (word == "facet" || word == "endfacet") {
             if (state != (word == "facet" ? in_solid : in_facet))
@@ -274,7 +306,8 @@ void check_stl(Source& source) {
             corners = 0;
         } else if (word == "vertex") {
             if (state != in_facet) source.fail_at(where, "'vertex' out of place");
-            for (int axis = 0; axis < 3; ++axis) check_coordinate(source, take_word(rest, white_space), where);
+            for (int axis = 0; axis < 3; ++axis)
+                check_coordinate(source, take_word(rest, white_space), where);
             ++corners;
         }
     }
@@ -289,10 +322,11 @@ struct PlyType {
     double largest;  ///< as a list's length; 0 for types that cannot be one
     bool is_signed;
 };
-constexpr PlyType ply_types[] = {{"char", "int8", 1, 127, true},        {"uchar", "uint8", 1, 255, false},
-                                 {"short", "int16", 2, 32767, true},    {"ushort", "uint16", 2, 65535, false},
-                                 {"int", "int32", 4, 2147483647, true}, {"uint", "uint32", 4, 4294967295, false},
-                                 {"float", "float32", 4, 0, true},      {"double", "float64", 8, 0, true}};
+constexpr PlyType ply_types[] = {
+    {"char", "int8", 1, 127, true},        {"uchar", "uint8", 1, 255, false},
+    {"short", "int16", 2, 32767, true},    {"ushort", "uint16", 2, 65535, false},
+    {"int", "int32", 4, 2147483647, true}, {"uint", "uint32", 4, 4294967295, false},
+    {"float", "float32", 4, 0, true},      {"double", "float64", 8, 0, true}};
 
 struct PlyProperty {
     std::string_view name;
@@ -315,7 +349,8 @@ const PlyType* find_ply_type(const Source& source, std::string_view word) {
 }
 
 /// Takes the header off `rest`; what is not allowed in one fails.
-std::vector<PlyElement> take_ply_header(const Source& source, std::string_view& rest, std::string_view& format) {
+std::vector<PlyElement> take_ply_header(const Source& source, std::string_view& rest,
+                                        std::string_view& format) {
     std::vector<PlyElement> elements;
     for (int number = 1;; ++number) {
         if (rest.empty()) source.fail("the file ends inside the header");
@@ -327,10 +362,12 @@ std::vector<PlyElement> take_ply_header(const Source& source, std::string_view& 
         } else if (number == 2) {
             format = take_word(line);
             if (keyword != "format" ||
-                (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian") ||
+                (format != "ascii" && format != "binary_little_endian" &&
+                 format != "binary_big_endian") ||
                 take_word(line).empty())
                 source.fail_at(where,
-                               "the second line of a PLY file gives its format: ascii, binary_little_endian or "
+                               "the second line of a PLY file gives its format: ascii, "
+                               "binary_little_endian or "
                                "binary_big_endian, and a version");
         } else if (keyword == "element") {
             const std::string_view name = take_word(line), word = take_word(line);
@@ -344,7 +381,8 @@ std::vector<PlyElement> take_ply_header(const Source& source, std::string_view& 
             std::string_view type = take_word(line);
             if (type == "list") {
                 property.length = find_ply_type(source, take_word(line));
-                if (property.length->largest == 0) source.fail_at(where, "a list's length must be an integer");
+                if (property.length->largest == 0)
+                    source.fail_at(where, "a list's length must be an integer");
                 type = take_word(line);
             }
             property.type = find_ply_type(source, type);
@@ -359,9 +397,11 @@ std::vector<PlyElement> take_ply_header(const Source& source, std::string_view& 
     }
 }
 
-/// The reader takes vertices from properties x, y, z (float or double) and faces from a list of int or uint.
+/// The reader takes vertices from properties x, y, z (float or double) and faces from a list of int
+/// or uint.
 void check_ply_layout(const Source& source, const std::vector<PlyElement>& elements) {
-    const auto property = [](const PlyElement& element, std::string_view name) -> const PlyProperty* {
+    const auto property = [](const PlyElement& element,
+                             std::string_view name) -> const PlyProperty* {
         const auto found = std::find_if(element.properties.begin(), element.properties.end(),
                                         [&](const PlyProperty& each) { return each.name == name; });
         return found == element.properties.end() ? nullptr : &*found;
@@ -376,17 +416,20 @@ void check_ply_layout(const Source& source, const std::vector<PlyElement>& eleme
             for (const std::string_view axis : {"x", "y", "z"}) {
                 const PlyProperty* coordinate = property(element, axis);
                 if (!coordinate || coordinate->length || coordinate->type->largest != 0)
-                    source.fail(fmt::format("the vertices have no property {} of type float or double", axis));
+                    source.fail(fmt::format(
+                        "the vertices have no property {} of type float or double", axis));
             }
         if (element.is_face()) {
             const PlyProperty* corners = property(element, "vertex_indices");
             if (!corners) corners = property(element, "vertex_index");
-            if (!corners || !corners->length || corners->type->largest == 0 || corners->type->bytes != 4)
+            if (!corners || !corners->length || corners->type->largest == 0 ||
+                corners->type->bytes != 4)
                 source.fail("the faces have no list of int or uint called vertex_indices");
         }
     }
     if (!has_vertices || !has_faces)
-        source.fail(fmt::format("the header has no element '{}'", has_vertices ? "face" : "vertex"));
+        source.fail(
+            fmt::format("the header has no element '{}'", has_vertices ? "face" : "vertex"));
 }
 
 /// "face 17": which item of the file is at fault, counted from 0.
@@ -394,8 +437,8 @@ std::string item_name(const PlyElement& element, std::uint64_t item) {
     return fmt::format("{} {}", element.name, item);
 }
 
-void check_ply_binary(const Source& source, const std::vector<PlyElement>& elements, std::string_view rest,
-                      bool big_endian) {
+void check_ply_binary(const Source& source, const std::vector<PlyElement>& elements,
+                      std::string_view rest, bool big_endian) {
     for (const PlyElement& element : elements) {
         std::size_t fewest_bytes = 0;
         bool lists = false;
@@ -405,7 +448,8 @@ void check_ply_binary(const Source& source, const std::vector<PlyElement>& eleme
         }
         if (element.count > 0 && element.count > rest.size() / fewest_bytes)
             source.fail(
-                fmt::format("the header promises {} of element '{}', more than fit into the {} bytes that are left",
+                fmt::format("the header promises {} of element '{}', more than fit into the {} "
+                            "bytes that are left",
                             element.count, element.name, rest.size()));
         if (!lists) {
             rest.remove_prefix(element.count * fewest_bytes);
@@ -416,55 +460,66 @@ void check_ply_binary(const Source& source, const std::vector<PlyElement>& eleme
                 std::uint64_t bytes = property.type->bytes;
                 if (property.length) {
                     if (rest.size() < property.length->bytes)
-                        source.fail(fmt::format("the file ends inside {}", item_name(element, item)));
+                        source.fail(
+                            fmt::format("the file ends inside {}", item_name(element, item)));
                     std::uint32_t entries = 0;
                     for (std::size_t i = 0; i < property.length->bytes; ++i)
                         entries |= std::uint32_t{static_cast<unsigned char>(rest[i])}
                                    << 8 * (big_endian ? property.length->bytes - 1 - i : i);
                     rest.remove_prefix(property.length->bytes);
                     if (entries > property.length->largest)
-                        source.fail(fmt::format("{}: a list of negative length", item_name(element, item)));
+                        source.fail(
+                            fmt::format("{}: a list of negative length", item_name(element, item)));
                     bytes *= entries;
                 }
                 if (rest.size() < bytes)
-                    source.fail(fmt::format("{} needs {} bytes, but {} are left in the file", item_name(element, item),
-                                            bytes, rest.size()));
+                    source.fail(fmt::format("{} needs {} bytes, but {} are left in the file",
+                                            item_name(element, item), bytes, rest.size()));
                 rest.remove_prefix(bytes);
             }
     }
 }
 
-void check_ply_text(const Source& source, const std::vector<PlyElement>& elements, std::string_view rest) {
+void check_ply_text(const Source& source, const std::vector<PlyElement>& elements,
+                    std::string_view rest) {
     for (const PlyElement& element : elements) {
         constexpr std::size_t fewest_bytes = 2;  // a digit and a blank
         if (element.count > rest.size() / fewest_bytes + 1)
             source.fail(
-                fmt::format("the header promises {} of element '{}', more than fit into the {} bytes that are left",
+                fmt::format("the header promises {} of element '{}', more than fit into the {} "
+                            "bytes that are left",
                             element.count, element.name, rest.size()));
         for (std::uint64_t item = 0; item < element.count; ++item)
             for (const PlyProperty& property : element.properties) {
                 const auto next = [&] {
                     const std::string_view word = take_word(rest, white_space);
-                    if (word.empty()) source.fail(fmt::format("the file ends inside {}", item_name(element, item)));
+                    if (word.empty())
+                        source.fail(
+                            fmt::format("the file ends inside {}", item_name(element, item)));
                     return word;
                 };
                 std::int64_t entries = 1, number = 0;
                 if (property.length) {
                     const std::string_view word = next();
-                    if (!parse_integer(word, entries) || entries < 0 || double(entries) > property.length->largest ||
+                    if (!parse_integer(word, entries) || entries < 0 ||
+                        double(entries) > property.length->largest ||
                         entries > std::int64_t(rest.size()))
-                        source.fail_at(word.data(),
-                                       fmt::format("{}: {} is not the length of a list that the file can hold",
-                                                   item_name(element, item), quote(word)));
+                        source.fail_at(
+                            word.data(),
+                            fmt::format("{}: {} is not the length of a list that the file can hold",
+                                        item_name(element, item), quote(word)));
                 }
                 for (std::int64_t entry = 0; entry < entries; ++entry) {
                     const std::string_view word = next();
                     if (property.type->largest == 0)
                         check_coordinate(source, word, word.data());
-                    else if (!parse_integer(word, number) || double(number) > property.type->largest ||
-                             double(number) < (property.type->is_signed ? -property.type->largest - 1 : 0))
-                        source.fail_at(word.data(), fmt::format("{}: {} is not a {}", item_name(element, item),
-                                                                quote(word), property.type->name));
+                    else if (!parse_integer(word, number) ||
+                             double(number) > property.type->largest ||
+                             double(number) <
+                                 (property.type->is_signed ? -property.type->largest - 1 : 0))
+                        source.fail_at(word.data(),
+                                       fmt::format("{}: {} is not a {}", item_name(element, item),
+                                                   quote(word), property.type->name));
                 }
             }
     }
@@ -488,14 +543,16 @@ double turn(const Double3& a, const Double3& b, const Double3& c, int axis) {
     return (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
 }
 
-/// Cuts a polygon into triangles. Where the first corner sees all others within a half-turn they fan out from it; else
-/// ears are cut off (Meisters 1975), seen along the main axis of the polygon's normal. A polygon without area, or one
-/// that crosses itself so that no ear is left, is fanned: no triangle is lost.
-void triangulate(const Source& source, std::size_t face, const std::vector<Point3>& vertices, Polygon polygon,
-                 std::vector<std::array<std::uint32_t, 3>>& faces) {
+/// Cuts a polygon into triangles. Where the first corner sees all others within a half-turn they
+/// fan out from it; else ears are cut off (Meisters 1975), seen along the main axis of the
+/// polygon's normal. A polygon without area, or one that crosses itself so that no ear is left, is
+/// fanned: no triangle is lost.
+void triangulate(const Source& source, std::size_t face, const std::vector<Point3>& vertices,
+                 Polygon polygon, std::vector<std::array<std::uint32_t, 3>>& faces) {
     const auto corner = [&](std::size_t i) { return Double3(vertices[polygon[i]]); };
     const auto fan = [&] {
-        for (std::size_t i = 2; i < polygon.size(); ++i) faces.push_back({polygon[0], polygon[i - 1], polygon[i]});
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            faces.push_back({polygon[0], polygon[i - 1], polygon[i]});
     };
     if (polygon.size() == 3) return fan();
 
@@ -510,21 +567,26 @@ void triangulate(const Source& source, std::size_t face, const std::vector<Point
         return sign * turn(corner(a), corner(b), corner(c), axis);
     };
     bool fans = true;
-    for (std::size_t i = 2; i < polygon.size(); ++i) fans = fans && left(0, i - 1, i) >= 0.0 && left(0, 1, i) >= 0.0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        fans = fans && left(0, i - 1, i) >= 0.0 && left(0, 1, i) >= 0.0;
     if (fans || area[axis] == 0.0) return fan();
 
-    constexpr std::size_t most_corners = 2000;  // of a polygon that needs ears: the search takes cubic time at worst
+    constexpr std::size_t most_corners =
+        2000;  // of a polygon that needs ears: the search takes cubic time at worst
     if (polygon.size() > most_corners)
-        source.fail(
-            fmt::format("face {} is not convex and has {} corners, more than {}", face, polygon.size(), most_corners));
+        source.fail(fmt::format("face {} is not convex and has {} corners, more than {}", face,
+                                polygon.size(), most_corners));
     for (std::size_t i = 0, misses = 0; polygon.size() > 3 && misses < polygon.size();) {
         const std::size_t size = polygon.size();
         i %= size;
         const std::size_t before = (i + size - 1) % size, after = (i + 1) % size;
         bool ear = left(before, i, after) > 0.0;
         for (std::size_t j = 0; ear && j < size; ++j) {
-            if (polygon[j] == polygon[before] || polygon[j] == polygon[i] || polygon[j] == polygon[after]) continue;
-            ear = !(left(before, i, j) >= 0.0 && left(i, after, j) >= 0.0 && left(after, before, j) >= 0.0);
+            if (polygon[j] == polygon[before] || polygon[j] == polygon[i] ||
+                polygon[j] == polygon[after])
+                continue;
+            ear = !(left(before, i, j) >= 0.0 && left(i, after, j) >= 0.0 &&
+                    left(after, before, j) >= 0.0);
         }
         if (ear) {
             faces.push_back({polygon[before], polygon[i], polygon[after]});
@@ -545,7 +607,9 @@ struct Format {
 };
 constexpr Format formats[] = {
     {".obj", check_obj,
-     [](auto& in, auto& points, auto& polygons) { return CGAL::IO::read_OBJ(in, points, polygons); }},
+     [](auto& in, auto& points, auto& polygons) {
+         return CGAL::IO::read_OBJ(in, points, polygons);
+     }},
     {".off", check_off,
      [](auto& in, auto& points, auto& polygons) {
          return CGAL::IO::read_OFF(in, points, polygons, CGAL::parameters::verbose(false));
@@ -555,7 +619,9 @@ constexpr Format formats[] = {
          return CGAL::IO::read_PLY(in, points, polygons, CGAL::parameters::verbose(false));
      }},
     {".stl", check_stl,
-     [](auto& in, auto& points, auto& polygons) { return CGAL::IO::read_STL(in, points, polygons); }},
+     [](auto& in, auto& points, auto& polygons) {
+         return CGAL::IO::read_STL(in, points, polygons);
+     }},
 };
 
 }  // namespace
@@ -565,9 +631,11 @@ TriangleMesh load_mesh(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? char(c | 0x20) : c; });
-    const auto format = std::find_if(std::begin(formats), std::end(formats),
-                                     [&](const Format& each) { return each.extension == extension; });
-    if (format == std::end(formats)) source.fail("not a mesh file: its name must end in .obj, .off, .ply or .stl");
+    const auto format =
+        std::find_if(std::begin(formats), std::end(formats),
+                     [&](const Format& each) { return each.extension == extension; });
+    if (format == std::end(formats))
+        source.fail("not a mesh file: its name must end in .obj, .off, .ply or .stl");
     if (source.content.empty()) source.fail("the file is empty");
     format->check(source);
 
@@ -583,8 +651,10 @@ TriangleMesh load_mesh(const std::filesystem::path& file) {
         stream.clear();
         const std::streamoff position = stream.tellg();
         source.content = std::move(stream).str();
-        std::size_t reached = std::min(std::size_t(std::max<std::streamoff>(position, 0)), source.content.size());
-        if (reached > 0 && source.content[reached - 1] == '\n') --reached;  // the line that the reader gave up on
+        std::size_t reached =
+            std::min(std::size_t(std::max<std::streamoff>(position, 0)), source.content.size());
+        if (reached > 0 && source.content[reached - 1] == '\n')
+            --reached;  // the line that the reader gave up on
         source.fail_at(source.content.data() + reached,
                        "the file cannot be read on from here: it is broken or of another kind");
     }
@@ -595,8 +665,8 @@ TriangleMesh load_mesh(const std::filesystem::path& file) {
         const Point3 vertex{static_cast<float>(points[i].x()), static_cast<float>(points[i].y()),
                             static_cast<float>(points[i].z())};
         if (!is_finite<3>(vertex))
-            source.fail(fmt::format("vertex {} ({}, {}, {}) is not finite as floats", i, points[i].x(), points[i].y(),
-                                    points[i].z()));
+            source.fail(fmt::format("vertex {} ({}, {}, {}) is not finite as floats", i,
+                                    points[i].x(), points[i].y(), points[i].z()));
         mesh.vertices.push_back(vertex);
     }
     if (polygons.empty()) source.fail("the file has no faces");
@@ -604,11 +674,13 @@ TriangleMesh load_mesh(const std::filesystem::path& file) {
     for (std::size_t face = 0; face < polygons.size(); ++face) {
         const Polygon& polygon = polygons[face];
         if (polygon.size() < 3)
-            source.fail(fmt::format("face {} has {} corners, a face needs three or more", face, polygon.size()));
+            source.fail(fmt::format("face {} has {} corners, a face needs three or more", face,
+                                    polygon.size()));
         for (const std::uint32_t index : polygon)
             if (index >= mesh.vertices.size())
-                source.fail(fmt::format("face {}: vertex index {}, but the file has {} vertices", face,
-                                        static_cast<std::int32_t>(index), mesh.vertices.size()));
+                source.fail(fmt::format("face {}: vertex index {}, but the file has {} vertices",
+                                        face, static_cast<std::int32_t>(index),
+                                        mesh.vertices.size()));
         triangulate(source, face, mesh.vertices, polygon, mesh.faces);
     }
     return mesh;

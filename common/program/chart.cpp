@@ -1,5 +1,10 @@
 #include "common/program/chart.hpp"
 
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/results.hpp"
+#include "common/program/svg.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,11 +22,6 @@
 #include <optional>
 #include <regex>
 
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
-#include "common/program/results.hpp"
-#include "common/program/svg.hpp"
-
 extern char** environ;
 
 namespace space {
@@ -31,16 +31,18 @@ namespace {
 constexpr double chart_width = 640, chart_height = 420;
 constexpr double text_size = 17, line_height = 21, text_gap = 12;
 constexpr double symbol_width = 22;  // with the gaps before and behind it
-/// Mean width of a character, for margins. DejaVu Sans, the widest of the style block's fonts, has about 0.6.
+/// Mean width of a character, for margins. DejaVu Sans, the widest of the style block's fonts, has
+/// about 0.6.
 constexpr double character_width = 0.6 * text_size;
 
-constexpr std::array series_inks{Ink::blue, Ink::vermillion, Ink::green, Ink::ink, Ink::purple, Ink::orange};
+constexpr std::array series_inks{Ink::blue, Ink::vermillion, Ink::green,
+                                 Ink::ink,  Ink::purple,     Ink::orange};
 /// Orange is too pale for text.
 Ink text_ink(Ink series) {
     return series == Ink::orange ? Ink::ink : series;
 }
-/// gnuplot's filled circle, square, triangle, diamond, pentagon, inverted triangle: colours are not the only
-/// difference.
+/// gnuplot's filled circle, square, triangle, diamond, pentagon, inverted triangle: colours are not
+/// the only difference.
 constexpr std::array point_types{7, 5, 9, 13, 15, 11};
 
 /// One line: what a script, a CSV comment or a label can hold.
@@ -50,11 +52,13 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// A gnuplot string. In single quotes nothing is special but the quote: no backquotes, macros or escapes. gnuplot 5.4
-/// misreads a doubled quote at the beginning, so quotes become apostrophes, which also look better.
+/// A gnuplot string. In single quotes nothing is special but the quote: no backquotes, macros or
+/// escapes. gnuplot 5.4 misreads a doubled quote at the beginning, so quotes become apostrophes,
+/// which also look better.
 std::string quoted(const std::string& text) {
     std::string result = "'";
-    for (const char c : one_line(text)) result += c == '\'' ? std::string("\u2019") : std::string(1, c);
+    for (const char c : one_line(text))
+        result += c == '\'' ? std::string("\u2019") : std::string(1, c);
     return result + "'";
 }
 
@@ -78,7 +82,8 @@ struct Axis {
 
     /// 0 at the low end, 1 at the high end.
     double fraction(double value) const {
-        return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+        return logarithmic ? std::log(value / low) / std::log(high / low)
+                           : (value - low) / (high - low);
     }
 };
 
@@ -95,12 +100,15 @@ Axis log_axis(double least, double most) {
     // Room at both ends, so that no point sits in a corner.
     const double pad = std::pow(std::max(most / least, 2.0), 0.05);
     Axis axis{true, least / pad, most * pad, {}};
-    for (const std::vector<double>& steps : {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {
+    for (const std::vector<double>& steps :
+         {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {
         axis.ticks.clear();
-        for (int e = static_cast<int>(std::floor(std::log10(axis.low))); e <= std::ceil(std::log10(axis.high)); ++e)
+        for (int e = static_cast<int>(std::floor(std::log10(axis.low)));
+             e <= std::ceil(std::log10(axis.high)); ++e)
             for (const double step : steps) {
                 const double value = step * std::pow(10.0, e);
-                if (value >= axis.low && value <= axis.high) axis.ticks.push_back({value, tick_text(value, axis.high)});
+                if (value >= axis.low && value <= axis.high)
+                    axis.ticks.push_back({value, tick_text(value, axis.high)});
             }
         if (axis.ticks.size() >= 3) break;
     }
@@ -111,10 +119,14 @@ Axis log_axis(double least, double most) {
 Axis linear_axis(double least, double most, double headroom = 0.0) {
     const double low = std::min(least, 0.0), high = most > low ? most : low + 1.0;
     const double raw = (high - low) / 5, decade = std::pow(10.0, std::floor(std::log10(raw)));
-    const double step = decade * (raw <= decade ? 1 : raw <= 2 * decade ? 2 : raw <= 5 * decade ? 5 : 10);
+    const double step = decade * (raw <= decade       ? 1
+                                  : raw <= 2 * decade ? 2
+                                  : raw <= 5 * decade ? 5
+                                                      : 10);
     const double first = std::floor(low / step), last = std::ceil(high / step + headroom);
     Axis axis{false, first * step, last * step, {}};
-    for (double k = first; k <= last; ++k) axis.ticks.push_back({k * step, tick_text(k * step, axis.high)});
+    for (double k = first; k <= last; ++k)
+        axis.ticks.push_back({k * step, tick_text(k * step, axis.high)});
     return axis;
 }
 
@@ -129,7 +141,8 @@ Points drawable(const Chart& chart, const Series& series) {
     const bool bars = chart.kind == ChartKind::bars;
     for (std::size_t i = 0; i < series.y.size(); ++i) {
         const double x = bars ? static_cast<double>(i) : series.x.at(i), y = series.y[i];
-        if (!std::isfinite(x) || !std::isfinite(y) || (chart.log_x && !bars && x <= 0) || (chart.log_y && y <= 0))
+        if (!std::isfinite(x) || !std::isfinite(y) || (chart.log_x && !bars && x <= 0) ||
+            (chart.log_y && y <= 0))
             continue;
         points.x.push_back(x);
         points.y.push_back(y);
@@ -145,13 +158,17 @@ class Script {
         double x_least = infinity, x_most = -infinity, y_least = infinity, y_most = -infinity;
         for (const Series& series : chart.series) {
             points_.push_back(drawable(chart, series));
-            for (const double x : points_.back().x) x_least = std::min(x_least, x), x_most = std::max(x_most, x);
-            for (const double y : points_.back().y) y_least = std::min(y_least, y), y_most = std::max(y_most, y);
+            for (const double x : points_.back().x)
+                x_least = std::min(x_least, x), x_most = std::max(x_most, x);
+            for (const double y : points_.back().y)
+                y_least = std::min(y_least, y), y_most = std::max(y_most, y);
         }
-        if (!(x_least <= x_most)) throw output_error(fmt::format("{}.svg: there is no point to draw", chart.id));
+        if (!(x_least <= x_most))
+            throw output_error(fmt::format("{}.svg: there is no point to draw", chart.id));
         x_ = chart.log_x ? log_axis(x_least, x_most) : linear_axis(x_least, x_most);
         if (bars()) x_ = {false, -0.5, static_cast<double>(chart.categories.size()) - 0.5, {}};
-        const double headroom = chart.kind == ChartKind::points ? 0.3 : 0.0;  // a point on the frame looks cut off
+        const double headroom =
+            chart.kind == ChartKind::points ? 0.3 : 0.0;  // a point on the frame looks cut off
         y_ = chart.log_y ? log_axis(y_least, y_most) : linear_axis(y_least, y_most, headroom);
 
         std::size_t tick_length = 0, name_length = 0;
@@ -160,8 +177,9 @@ class Script {
             for (const Series& series : chart.series)
                 name_length = std::max({name_length, series.name.size(), series.note.size()});
         left_ = 20 + character_width * static_cast<double>(tick_length);
-        right_ = chart_width -
-                 std::max(24.0, text_gap + symbol_width + character_width * static_cast<double>(name_length));
+        right_ =
+            chart_width - std::max(24.0, text_gap + symbol_width +
+                                             character_width * static_cast<double>(name_length));
         top_ = keyed() ? 80 : 44;
     }
 
@@ -188,13 +206,15 @@ class Script {
     /// Text with its base line at (x, y), from the top left.
     void label(const std::string& text, double x, double y, std::string_view place, Ink ink) {
         if (text.empty()) return;
-        add("set label {} at screen {:.5f},{:.5f} {} font ',{}' textcolor rgb '{}'", quoted(text), x / chart_width,
+        add("set label {} at screen {:.5f},{:.5f} {} font ',{}' textcolor rgb '{}'", quoted(text),
+            x / chart_width,
             // gnuplot centres text at the given height: a third of its size above the base line
             1.0 - (y - text_size / 3) / chart_height, place, text_size, svg_color(ink));
     }
     /// What stands for the series in the chart, before its name at (x, y).
     void symbol(std::size_t series, double x, double y) {
-        add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 0.8 linecolor rgb '{}'",
+        add("set label ' ' at screen {:.5f},{:.5f} point pointtype {} pointsize 0.8 linecolor rgb "
+            "'{}'",
             (x + 10) / chart_width, 1 - (y - text_size / 3) / chart_height,
             bars() ? 5 : point_types[series % point_types.size()], svg_color(ink(series)));
     }
@@ -208,25 +228,33 @@ class Script {
                 ticks.push_back(fmt::format("{} {:.12g}", quoted(tick.text), tick.value));
             return fmt::format("{}", fmt::join(ticks, ", "));
         };
-        add("set encoding utf8\nset terminal svg size {},{} noenhanced font 'sans-serif,{}' linewidth {}", chart_width,
-            chart_height, text_size, line_weight);
-        add("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
+        add("set encoding utf8\nset terminal svg size {},{} noenhanced font 'sans-serif,{}' "
+            "linewidth {}",
+            chart_width, chart_height, text_size, line_weight);
+        add("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen "
+            "{:.5f}\n"
             "set bmargin at screen {:.5f}",
-            left_ / chart_width, right_ / chart_width, 1 - top_ / chart_height, 1 - bottom_ / chart_height);
-        add("unset key\nset border {} linecolor rgb '{}' linewidth 0.5", bars() ? 1 : 3, svg_color(Ink::quiet));
-        add("set grid {} linetype 1 linecolor rgb '{}' linewidth 0.5", bars() ? "ytics" : "xtics ytics",
-            svg_color(Ink::faint));
+            left_ / chart_width, right_ / chart_width, 1 - top_ / chart_height,
+            1 - bottom_ / chart_height);
+        add("unset key\nset border {} linecolor rgb '{}' linewidth 0.5", bars() ? 1 : 3,
+            svg_color(Ink::quiet));
+        add("set grid {} linetype 1 linecolor rgb '{}' linewidth 0.5",
+            bars() ? "ytics" : "xtics ytics", svg_color(Ink::faint));
         if (x_.logarithmic) add("set logscale x");
         if (y_.logarithmic) add("set logscale y");
-        add("set xrange [{:.12g}:{:.12g}]\nset yrange [{:.12g}:{:.12g}]", x_.low, x_.high, y_.low, y_.high);
+        add("set xrange [{:.12g}:{:.12g}]\nset yrange [{:.12g}:{:.12g}]", x_.low, x_.high, y_.low,
+            y_.high);
         if (bars()) {
             for (std::size_t i = 0; i < chart_.categories.size(); ++i)
-                label(chart_.categories[i], x_at(static_cast<double>(i)), bottom_ + 22, "center", Ink::ink);
+                label(chart_.categories[i], x_at(static_cast<double>(i)), bottom_ + 22, "center",
+                      Ink::ink);
             add("unset xtics");
         } else {
-            add("set xtics nomirror scale 0 offset 0,0.3 ({}) textcolor rgb '{}'", tick_list(x_), svg_color(Ink::ink));
+            add("set xtics nomirror scale 0 offset 0,0.3 ({}) textcolor rgb '{}'", tick_list(x_),
+                svg_color(Ink::ink));
         }
-        add("set ytics nomirror scale 0 ({}) textcolor rgb '{}'", tick_list(y_), svg_color(Ink::ink));
+        add("set ytics nomirror scale 0 ({}) textcolor rgb '{}'", tick_list(y_),
+            svg_color(Ink::ink));
         label(chart_.x_label, 0.5 * (left_ + right_), chart_height - 10, "center", Ink::ink);
         label(chart_.y_label, 8, 24, "left", Ink::ink);
     }
@@ -250,13 +278,15 @@ class Script {
         double column = left_;
         for (std::size_t s = 0; s < points_.size(); ++s) {
             if (points_[s].x.empty()) continue;
-            names.push_back(
-                {s, y_at(points_[s].y.back()), line_height * (chart_.series[s].note.empty() ? 1 : 2)});
+            names.push_back({s, y_at(points_[s].y.back()),
+                             line_height * (chart_.series[s].note.empty() ? 1 : 2)});
             column = std::max(column, x_at(points_[s].x.back()) + text_gap);
         }
-        std::sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.y < b.y; });
+        std::sort(names.begin(), names.end(),
+                  [](const Name& a, const Name& b) { return a.y < b.y; });
         for (std::size_t i = 1; i < names.size(); ++i)
-            names[i].y = std::max(names[i].y, names[i - 1].y + 0.5 * (names[i].height + names[i - 1].height) + 6);
+            names[i].y = std::max(
+                names[i].y, names[i - 1].y + 0.5 * (names[i].height + names[i - 1].height) + 6);
         double lowest = bottom_ - 4;
         for (std::size_t i = names.size(); i-- > 0;) {
             names[i].y = std::min(names[i].y, lowest - 0.5 * names[i].height);
@@ -264,14 +294,17 @@ class Script {
         }
         for (const Name& name : names) {
             const Series& series = chart_.series[name.series];
-            const double base = name.y + text_size / 3 - (series.note.empty() ? 0 : 0.5 * line_height);
+            const double base =
+                name.y + text_size / 3 - (series.note.empty() ? 0 : 0.5 * line_height);
             symbol(name.series, column, base);
             label(series.name, column + symbol_width, base, "left", text_ink(ink(name.series)));
-            label(series.note, column + symbol_width, base + line_height, "left", text_ink(ink(name.series)));
+            label(series.note, column + symbol_width, base + line_height, "left",
+                  text_ink(ink(name.series)));
         }
     }
 
-    /// Above bars; beside points, where the least lies in the way: to the right, to the left, above, below.
+    /// Above bars; beside points, where the least lies in the way: to the right, to the left,
+    /// above, below.
     void label_points() {
         struct Box {
             double left, top, right, bottom;
@@ -296,20 +329,24 @@ class Script {
                     continue;
                 }
                 if (text.empty()) continue;
-                const double x = x_at(points_[s].x[i]), width = character_width * static_cast<double>(text.size());
+                const double x = x_at(points_[s].x[i]),
+                             width = character_width * static_cast<double>(text.size());
                 const double gap = text_gap, half = 0.5 * text_size;
-                const std::array<Box, 4> places{{{x + gap, y - half, x + gap + width, y + half},
-                                                 {x - gap - width, y - half, x - gap, y + half},
-                                                 {x - width / 2, y - gap - 2 * half, x + width / 2, y - gap},
-                                                 {x - width / 2, y + gap, x + width / 2, y + gap + 2 * half}}};
+                const std::array<Box, 4> places{
+                    {{x + gap, y - half, x + gap + width, y + half},
+                     {x - gap - width, y - half, x - gap, y + half},
+                     {x - width / 2, y - gap - 2 * half, x + width / 2, y - gap},
+                     {x - width / 2, y + gap, x + width / 2, y + gap + 2 * half}}};
                 const auto in_the_way = [&](const Box& box) {
                     const Box picture{left_, 0, right_ + gap, bottom_};
-                    double area = (box.right - box.left) * (box.bottom - box.top) - box.overlap(picture);
+                    double area =
+                        (box.right - box.left) * (box.bottom - box.top) - box.overlap(picture);
                     for (const Box& other : taken) area += box.overlap(other);
                     return area;
                 };
                 const Box& best = *std::min_element(
-                    places.begin(), places.end(), [&](const Box& p, const Box& q) { return in_the_way(p) < in_the_way(q); });
+                    places.begin(), places.end(),
+                    [&](const Box& p, const Box& q) { return in_the_way(p) < in_the_way(q); });
                 taken.push_back(best);
                 label(text, best.left, best.bottom - half + text_size / 3, "left", Ink::ink);
             }
@@ -317,9 +354,12 @@ class Script {
 
     void key() {
         double x = left_, letters = 0;
-        for (const Series& series : chart_.series) letters += character_width * static_cast<double>(series.name.size());
-        // Some fonts are wider than the one that the width of a character is from: what is tight moves together.
-        const double gap = std::min(44.0, (chart_width - left_ - 24.0 - letters) / static_cast<double>(chart_.series.size()));
+        for (const Series& series : chart_.series)
+            letters += character_width * static_cast<double>(series.name.size());
+        // Some fonts are wider than the one that the width of a character is from: what is tight
+        // moves together.
+        const double gap = std::min(44.0, (chart_width - left_ - 24.0 - letters) /
+                                              static_cast<double>(chart_.series.size()));
         for (std::size_t s = 0; s < chart_.series.size(); ++s) {
             const std::string& name = chart_.series[s].name;
             symbol(s, x - 4, 50);
@@ -331,7 +371,8 @@ class Script {
     /// Where the bars of series s stand beside the middle of their category, and how wide they are.
     double bar_width() const { return 0.7 / static_cast<double>(chart_.series.size()); }
     double offset(std::size_t s) const {
-        return bar_width() * (static_cast<double>(s) - 0.5 * static_cast<double>(chart_.series.size() - 1));
+        return bar_width() *
+               (static_cast<double>(s) - 0.5 * static_cast<double>(chart_.series.size() - 1));
     }
 
     void plot() {
@@ -339,14 +380,15 @@ class Script {
         for (std::size_t s = 0; s < points_.size(); ++s) {
             if (points_[s].x.empty()) continue;
             if (bars())
-                plots.push_back(
-                    fmt::format("$series{} using ($1+{:.5f}):2:({:.5f}) with boxes fillstyle solid 1 noborder "
-                                "linecolor rgb '{}' notitle",
-                                s, offset(s), 0.92 * bar_width(), svg_color(ink(s))));
+                plots.push_back(fmt::format(
+                    "$series{} using ($1+{:.5f}):2:({:.5f}) with boxes fillstyle solid 1 noborder "
+                    "linecolor rgb '{}' notitle",
+                    s, offset(s), 0.92 * bar_width(), svg_color(ink(s))));
             else
-                plots.push_back(fmt::format("$series{} with {} linecolor rgb '{}' pointtype {} pointsize 0.8 notitle",
-                                            s, chart_.kind == ChartKind::lines ? "linespoints" : "points",
-                                            svg_color(ink(s)), point_types[s % point_types.size()]));
+                plots.push_back(fmt::format(
+                    "$series{} with {} linecolor rgb '{}' pointtype {} pointsize 0.8 notitle", s,
+                    chart_.kind == ChartKind::lines ? "linespoints" : "points", svg_color(ink(s)),
+                    point_types[s % point_types.size()]));
         }
         add("plot {}", fmt::join(plots, ", "));
     }
@@ -362,9 +404,11 @@ class Script {
 /// A directory that nobody else writes to, gone with its files at the end.
 class TemporaryDirectory {
   public:
-    TemporaryDirectory() : path_((std::filesystem::temp_directory_path() / "splitting_space_XXXXXX").string()) {
+    TemporaryDirectory()
+        : path_((std::filesystem::temp_directory_path() / "splitting_space_XXXXXX").string()) {
         if (!::mkdtemp(path_.data()))
-            throw output_error(fmt::format("{}: cannot make a temporary directory: {}", path_, std::strerror(errno)));
+            throw output_error(fmt::format("{}: cannot make a temporary directory: {}", path_,
+                                           std::strerror(errno)));
     }
     ~TemporaryDirectory() {
         std::error_code ignored;
@@ -372,7 +416,9 @@ class TemporaryDirectory {
     }
     TemporaryDirectory(const TemporaryDirectory&) = delete;
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-    std::filesystem::path operator/(const char* name) const { return std::filesystem::path(path_) / name; }
+    std::filesystem::path operator/(const char* name) const {
+        return std::filesystem::path(path_) / name;
+    }
 
   private:
     std::string path_;
@@ -388,34 +434,42 @@ std::optional<std::string> run_gnuplot(const std::string& script, const std::str
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
     std::string program = "gnuplot", defaults = "--default-settings", file = input.string();
     char* arguments[] = {program.data(), defaults.data(), file.data(), nullptr};
     pid_t child = 0;
     const int fault = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     if (fault == ENOENT) return std::nullopt;
-    if (fault != 0) throw output_error(fmt::format("{}.svg: cannot start gnuplot: {}", id, std::strerror(fault)));
+    if (fault != 0)
+        throw output_error(
+            fmt::format("{}.svg: cannot start gnuplot: {}", id, std::strerror(fault)));
 
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         std::string reason = read_file(errors);
-        while (!reason.empty() && std::isspace(static_cast<unsigned char>(reason.back()))) reason.pop_back();
-        reason.erase(0, reason.find_last_of('\n') + 1);  // the last line says what; those before show where
-        throw output_error(fmt::format("{}.svg: gnuplot failed: {}", id, reason.empty() ? "no reason given" : reason));
+        while (!reason.empty() && std::isspace(static_cast<unsigned char>(reason.back())))
+            reason.pop_back();
+        reason.erase(
+            0, reason.find_last_of('\n') + 1);  // the last line says what; those before show where
+        throw output_error(fmt::format("{}.svg: gnuplot failed: {}", id,
+                                       reason.empty() ? "no reason given" : reason));
     }
     return read_file(output);
 }
 
-/// gnuplot's SVG inside our own svg tag and style: colours as the style block knows them, ids that are unique in a
-/// page.
+/// gnuplot's SVG inside our own svg tag and style: colours as the style block knows them, ids that
+/// are unique in a page.
 std::string restyled(std::string svg, const Chart& chart) {
     const auto from = svg.find("<defs>"), to = svg.rfind("</g>");
     if (from == svg.npos || to == svg.npos || to < from)
-        throw output_error(fmt::format("{}.svg: gnuplot wrote something that is not the SVG we know", chart.id));
+        throw output_error(
+            fmt::format("{}.svg: gnuplot wrote something that is not the SVG we know", chart.id));
     svg = svg.substr(from, to - from);
 
     std::string colored;
@@ -423,8 +477,8 @@ std::string restyled(std::string svg, const Chart& chart) {
     auto last = svg.cbegin();
     for (std::sregex_iterator match(svg.cbegin(), svg.cend(), rgb), end; match != end; ++match) {
         colored.append(last, (*match)[0].first);
-        colored +=
-            fmt::format("#{:02x}{:02x}{:02x}", std::stoi((*match)[1]), std::stoi((*match)[2]), std::stoi((*match)[3]));
+        colored += fmt::format("#{:02x}{:02x}{:02x}", std::stoi((*match)[1]),
+                               std::stoi((*match)[2]), std::stoi((*match)[3]));
         last = (*match)[0].second;
     }
     colored.append(last, svg.cend());
@@ -442,8 +496,8 @@ std::string restyled(std::string svg, const Chart& chart) {
     }};
     for (const auto& [pattern, replacement] : replacements)
         colored = std::regex_replace(colored, std::regex(pattern), replacement);
-    colored =
-        std::regex_replace(colored, std::regex(R"(<g [^>]*>\s*</g>\s*)"), "");  // gnuplot leaves many empty groups
+    colored = std::regex_replace(colored, std::regex(R"(<g [^>]*>\s*</g>\s*)"),
+                                 "");  // gnuplot leaves many empty groups
     return svg_opening(chart.id, chart.title, chart_width, chart_height) + colored + "</svg>\n";
 }
 
@@ -455,13 +509,14 @@ std::string chart_csv(const Chart& chart) {
                                       [](const Series& series) { return !series.labels.empty(); });
     std::string csv = fmt::format("# {}: {}\n# machine: {}\n# date: {}\nseries,{},{}{}\n", chart.id,
                                   one_line(chart.title), one_line(machine_description()), today(),
-                                  csv_field(bars ? "category" : chart.x_label), csv_field(chart.y_label),
-                                  labelled ? ",label" : "");
+                                  csv_field(bars ? "category" : chart.x_label),
+                                  csv_field(chart.y_label), labelled ? ",label" : "");
     for (const Series& series : chart.series)
         for (std::size_t i = 0; i < series.y.size(); ++i) {
-            csv += fmt::format("{},{},{:.9g}", csv_field(series.name),
-                               bars ? csv_field(chart.categories.at(i)) : fmt::format("{:.9g}", series.x.at(i)),
-                               series.y[i]);
+            csv += fmt::format(
+                "{},{},{:.9g}", csv_field(series.name),
+                bars ? csv_field(chart.categories.at(i)) : fmt::format("{:.9g}", series.x.at(i)),
+                series.y[i]);
             if (labelled) csv += "," + csv_field(i < series.labels.size() ? series.labels[i] : "");
             csv += '\n';
         }
@@ -472,7 +527,8 @@ void write_chart(const std::filesystem::path& out, const Chart& chart) {
     write_file(out / (chart.id + ".csv"), chart_csv(chart));
     const std::optional<std::string> svg = run_gnuplot(Script(chart).text(), chart.id);
     if (!svg) {
-        fmt::print(stderr, "{0}.csv is written, {0}.svg is not: gnuplot is not installed\n", chart.id);
+        fmt::print(stderr, "{0}.csv is written, {0}.svg is not: gnuplot is not installed\n",
+                   chart.id);
         return;
     }
     write_file(out / (chart.id + ".svg"), restyled(*svg, chart));

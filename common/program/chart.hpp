@@ -1,6 +1,7 @@
 /// @file
-/// Charts of measured series: data as CSV with the machine and the date in it, drawn by gnuplot as SVG in the
-/// drawings' palette (common/program/svg.hpp), so that charts follow light and dark pages too.
+/// Charts of measured series: data as CSV with the machine and the date in it, drawn by gnuplot as
+/// SVG in the drawings' palette (common/program/svg.hpp), so that charts follow light and dark
+/// pages too.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +21,8 @@ struct Series {
 /// What stands for a value: a corner of a line, a dot, or a bar.
 enum class ChartKind { lines, points, bars };
 
-/// Text is drawn as it stands, one line each. On a logarithmic axis, values that are not positive are left out; those
-/// that are not finite are left out everywhere. The CSV has them all.
+/// Text is drawn as it stands, one line each. On a logarithmic axis, values that are not positive
+/// are left out; those that are not finite are left out everywhere. The CSV has them all.
 struct Chart {
     std::string id;     ///< "fig_01_06"
     std::string title;  ///< alternative text

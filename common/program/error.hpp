@@ -27,9 +27,15 @@ class Error : public std::runtime_error {
     ExitCode code_;
 };
 
-inline Error usage_error(const std::string& line) { return {ExitCode::usage, line}; }
-inline Error input_error(const std::string& line) { return {ExitCode::bad_input, line}; }
-inline Error output_error(const std::string& line) { return {ExitCode::bad_output, line}; }
+inline Error usage_error(const std::string& line) {
+    return {ExitCode::usage, line};
+}
+inline Error input_error(const std::string& line) {
+    return {ExitCode::bad_input, line};
+}
+inline Error output_error(const std::string& line) {
+    return {ExitCode::bad_output, line};
+}
 
 /// Runs a program's body; an Error becomes one line on stderr, "NAME: line", and its exit code.
 int run_program(const char* name, int (*body)(int, char**), int argc, char** argv);

@@ -1,8 +1,8 @@
 #include "common/program/figure.hpp"
 
-#include <fmt/format.h>
-
 #include "common/program/error.hpp"
+
+#include <fmt/format.h>
 
 namespace space {
 
@@ -16,7 +16,8 @@ int make_figures(std::span<const Figure> figures, const Options& options) {
         figure.make(options);
         found = true;
     }
-    if (!found) throw usage_error(fmt::format("--figure {}: no such figure; there are:{} all", id, known));
+    if (!found)
+        throw usage_error(fmt::format("--figure {}: no such figure; there are:{} all", id, known));
     return static_cast<int>(ExitCode::ok);
 }
 

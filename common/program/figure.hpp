@@ -2,16 +2,16 @@
 /// Every figure of the book is a function with an id.
 #pragma once
 
+#include "common/program/options.hpp"
+
 #include <filesystem>
 #include <span>
 #include <string_view>
 
-#include "common/program/options.hpp"
-
 namespace space {
 
-/// A drawing comes from an algorithm's own output and has the same bytes on every run and machine; a rendering is a
-/// PNG, the same bytes too; a chart shows measured times and is never compared.
+/// A drawing comes from an algorithm's own output and has the same bytes on every run and machine;
+/// a rendering is a PNG, the same bytes too; a chart shows measured times and is never compared.
 enum class FigureKind { drawing, rendering, chart };
 
 /// A figure of the book, and the function that makes it.

@@ -1,5 +1,7 @@
 #include "common/program/file.hpp"
 
+#include "common/program/error.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -8,8 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <vector>
-
-#include "common/program/error.hpp"
 
 namespace space {
 namespace {
@@ -36,14 +36,17 @@ struct Part {
     Descriptor descriptor{-1};
 
     /// Makes the directory if it is not there.
-    explicit Part(const std::filesystem::path& file) : name(fmt::format("{}.{}.part", file.string(), ::getpid())) {
+    explicit Part(const std::filesystem::path& file)
+        : name(fmt::format("{}.{}.part", file.string(), ::getpid())) {
         std::error_code error;
         const auto directory = file.parent_path();
         if (!directory.empty()) std::filesystem::create_directories(directory, error);
-        if (error) throw output_error(fmt::format("cannot make directory {}: {}", directory.string(), error.message()));
-        if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+        if (error)
             throw output_error(
-                fmt::format("cannot write {}: not a regular file", file.string()));  // renaming would replace it
+                fmt::format("cannot make directory {}: {}", directory.string(), error.message()));
+        if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+            throw output_error(fmt::format("cannot write {}: not a regular file",
+                                           file.string()));  // renaming would replace it
         descriptor.fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor.fd < 0) throw cannot_write(file);
     }
@@ -52,7 +55,8 @@ struct Part {
     Part& operator=(const Part&) = delete;
 };
 
-/// The directories above a file that are not there yet: once made they go with this object, if they are empty.
+/// The directories above a file that are not there yet: once made they go with this object, if they
+/// are empty.
 struct MissingDirectories {
     std::vector<std::filesystem::path> paths;  ///< the lowest first
 
@@ -73,11 +77,14 @@ struct MissingDirectories {
 }  // namespace
 
 std::string read_file(const std::filesystem::path& file) {
-    const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // a pipe must not wait
+    const Descriptor descriptor{
+        ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // a pipe must not wait
     if (descriptor.fd < 0) throw input_error(fmt::format("{}: {}", file.string(), fault()));
     struct stat status {};
-    if (::fstat(descriptor.fd, &status) != 0) throw input_error(fmt::format("{}: {}", file.string(), fault()));
-    if (!S_ISREG(status.st_mode)) throw input_error(fmt::format("{}: not a regular file", file.string()));
+    if (::fstat(descriptor.fd, &status) != 0)
+        throw input_error(fmt::format("{}: {}", file.string(), fault()));
+    if (!S_ISREG(status.st_mode))
+        throw input_error(fmt::format("{}: not a regular file", file.string()));
     std::string content(static_cast<std::size_t>(status.st_size), '\0');
     std::size_t size = 0;
     while (size < content.size()) {
@@ -95,12 +102,14 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
     const Part part(file);
     std::size_t size = 0;
     while (size < content.size()) {
-        const ssize_t count = ::write(part.descriptor.fd, content.data() + size, content.size() - size);
+        const ssize_t count =
+            ::write(part.descriptor.fd, content.data() + size, content.size() - size);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) throw cannot_write(file);
         size += static_cast<std::size_t>(count);
     }
-    if (::fsync(part.descriptor.fd) != 0) throw cannot_write(file);  // a full disk may show only here
+    if (::fsync(part.descriptor.fd) != 0)
+        throw cannot_write(file);  // a full disk may show only here
     if (::rename(part.name.c_str(), file.c_str()) != 0) throw cannot_write(file);
 }
 

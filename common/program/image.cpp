@@ -1,11 +1,11 @@
 #include "common/program/image.hpp"
 
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
-
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -29,7 +29,8 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image) {
     bytes.reserve(std::size_t(image.width()) * std::size_t(image.height()) * 3);
     for (int y = 0; y < image.height(); ++y)
         for (int x = 0; x < image.width(); ++x)
-            for (int channel = 0; channel < 3; ++channel) bytes.push_back(srgb_byte(image.at(x, y)[channel]));
+            for (int channel = 0; channel < 3; ++channel)
+                bytes.push_back(srgb_byte(image.at(x, y)[channel]));
     return bytes;
 }
 
@@ -55,14 +56,18 @@ std::string png_bytes(const Image& image) {
     const std::vector<std::uint8_t> pixels = srgb_bytes(image);
     std::string png;
     const auto append = [](void* context, void* data, int size) {
-        static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+        static_cast<std::string*>(context)->append(static_cast<const char*>(data),
+                                                   static_cast<std::size_t>(size));
     };
-    if (!stbi_write_png_to_func(append, &png, image.width(), image.height(), 3, pixels.data(), 3 * image.width()))
-        throw output_error("cannot encode a PNG picture of " + std::to_string(image.width()) + " x " +
-                           std::to_string(image.height()) + " pixels");
+    if (!stbi_write_png_to_func(append, &png, image.width(), image.height(), 3, pixels.data(),
+                                3 * image.width()))
+        throw output_error("cannot encode a PNG picture of " + std::to_string(image.width()) +
+                           " x " + std::to_string(image.height()) + " pixels");
     return png;
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) { write_file(file, png_bytes(image)); }
+void write_png(const std::filesystem::path& file, const Image& image) {
+    write_file(file, png_bytes(image));
+}
 
 }  // namespace space

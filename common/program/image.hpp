@@ -2,24 +2,29 @@
 /// Pictures: linear colours in memory, sRGB bytes in PNG files.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 namespace space {
 
 /// A picture in linear colours, row after row from the top.
 class Image {
   public:
-    Image(int width, int height) : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {}
+    Image(int width, int height)
+        : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
-    glm::vec3& at(int x, int y) { return pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
-    const glm::vec3& at(int x, int y) const { return pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
+    glm::vec3& at(int x, int y) {
+        return pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+    }
+    const glm::vec3& at(int x, int y) const {
+        return pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+    }
     bool operator==(const Image&) const = default;
 
   private:

@@ -1,16 +1,16 @@
 #include "common/program/options.hpp"
 
+#include "common/program/error.hpp"
+
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <limits>
 #include <string_view>
 #include <thread>
-
-#include "common/program/error.hpp"
 
 namespace space {
 namespace {
@@ -30,21 +30,26 @@ void parse_size(std::string_view text, Options& options) {
     const std::size_t cross = std::min(text.find('x'), text.size());
     const auto width = whole_number(text.substr(0, cross));
     const auto height = whole_number(text.substr(std::min(cross + 1, text.size())));
-    const auto fits = [](const std::optional<std::uint64_t>& side) { return side && *side >= 1 && *side <= max_side; };
+    const auto fits = [](const std::optional<std::uint64_t>& side) {
+        return side && *side >= 1 && *side <= max_side;
+    };
     if (!fits(width) || !fits(height))
-        throw usage_error(fmt::format("--size {}: give WIDTHxHEIGHT, each from 1 to {}", text, max_side));
+        throw usage_error(
+            fmt::format("--size {}: give WIDTHxHEIGHT, each from 1 to {}", text, max_side));
     options.width = static_cast<int>(*width);
     options.height = static_cast<int>(*height);
 }
 
 }  // namespace
 
-CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low, std::uint64_t high,
-                              std::function<void(std::uint64_t)> set, const std::string& about) {
+CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low,
+                              std::uint64_t high, std::function<void(std::uint64_t)> set,
+                              const std::string& about) {
     const auto parse = [=](const std::string& text) {
         const auto number = whole_number(text);
         if (!number || *number < low || *number > high)
-            throw usage_error(fmt::format("{} {}: give a whole number from {} to {}", name, text, low, high));
+            throw usage_error(
+                fmt::format("{} {}: give a whole number from {} to {}", name, text, low, high));
         set(*number);
     };
     const bool bounded = high < std::numeric_limits<std::uint64_t>::max();
@@ -54,14 +59,16 @@ CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint6
 
 void add_common_options(CLI::App& app, Options& options) {
     add_whole_number(
-        app, "--threads", 1, max_threads, [&](std::uint64_t n) { options.threads = static_cast<unsigned>(n); },
+        app, "--threads", 1, max_threads,
+        [&](std::uint64_t n) { options.threads = static_cast<unsigned>(n); },
         "worker threads; default: as many as the machine has");
     add_whole_number(
-        app, "--seed", 0, std::numeric_limits<std::uint64_t>::max(), [&](std::uint64_t n) { options.seed = n; },
-        "seed of everything random")
+        app, "--seed", 0, std::numeric_limits<std::uint64_t>::max(),
+        [&](std::uint64_t n) { options.seed = n; }, "seed of everything random")
         ->default_str(fmt::format("{}", options.seed));
     app.add_option_function<std::string>(
-           "--size", [&](const std::string& text) { parse_size(text, options); }, "picture size in pixels")
+           "--size", [&](const std::string& text) { parse_size(text, options); },
+           "picture size in pixels")
         ->type_name("WxH")
         ->default_str(fmt::format("{}x{}", options.width, options.height));
 }
@@ -76,14 +83,18 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     }
 }
 
-Options parse_options(int argc, char** argv, const ProgramInfo& program, const std::function<void(CLI::App&)>& more) {
+Options parse_options(int argc, char** argv, const ProgramInfo& program,
+                      const std::function<void(CLI::App&)>& more) {
     Options options = program.defaults;
     CLI::App app(program.about, program.name);
     app.add_option("--scene", options.scene, "a scene by name (NAME or NAME:SIZE) or a mesh file")
         ->capture_default_str();
-    app.add_flag("--small", options.small, "a small run that prints counts only: the same on every machine");
-    app.add_flag("--quick", options.quick, "fewer sizes and rounds: minutes instead of a quarter of an hour");
-    app.add_option("--out", options.out, "directory for pictures, charts and results.json")->capture_default_str();
+    app.add_flag("--small", options.small,
+                 "a small run that prints counts only: the same on every machine");
+    app.add_flag("--quick", options.quick,
+                 "fewer sizes and rounds: minutes instead of a quarter of an hour");
+    app.add_option("--out", options.out, "directory for pictures, charts and results.json")
+        ->capture_default_str();
     app.add_option("--figure", options.figure, "make one figure, or 'all', into --out and end");
     add_common_options(app, options);
     if (more) more(app);

@@ -18,14 +18,15 @@ namespace space {
 
 /// Their values, as a program gets them.
 struct Options {
-    std::string scene = {};             ///< --scene NAME, NAME:SIZE or FILE
-    bool small = false;                 ///< --small: counts only, in a second or two; what the tests run
-    bool quick = false;                 ///< --quick: fewer sizes and rounds
-    std::filesystem::path out = ".";    ///< --out DIR: pictures, figures, results
-    unsigned threads = 0;               ///< --threads N; parse_options turns 0 into the machine's count
-    std::uint64_t seed = 1;             ///< --seed S
-    int width = 640, height = 480;      ///< --size WxH
-    std::optional<std::string> figure = {};  ///< --figure ID (or "all"): draw into --out and do nothing else
+    std::string scene = {};  ///< --scene NAME, NAME:SIZE or FILE
+    bool small = false;      ///< --small: counts only, in a second or two; what the tests run
+    bool quick = false;      ///< --quick: fewer sizes and rounds
+    std::filesystem::path out = ".";  ///< --out DIR: pictures, figures, results
+    unsigned threads = 0;           ///< --threads N; parse_options turns 0 into the machine's count
+    std::uint64_t seed = 1;         ///< --seed S
+    int width = 640, height = 480;  ///< --size WxH
+    std::optional<std::string> figure =
+        {};  ///< --figure ID (or "all"): draw into --out and do nothing else
 };
 
 /// What a program brings to its command line.
@@ -35,17 +36,19 @@ struct ProgramInfo {
     Options defaults;
 };
 
-/// Parses the command line. `more` may add options of the program's own to the parser. --help prints and exits 0.
+/// Parses the command line. `more` may add options of the program's own to the parser. --help
+/// prints and exits 0.
 /// @throws Error (usage) with one line for anything absurd
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
                       const std::function<void(CLI::App&)>& more = {});
 
 inline constexpr unsigned max_threads = 1024;  ///< more is a slip of the finger
 
-/// An option that takes a whole number from `low` to `high` in decimal: CLI11 by itself takes 010 for 8.
-/// `set` gets the number. @return the option, for what CLI11 has to add to it
-CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low, std::uint64_t high,
-                              std::function<void(std::uint64_t)> set, const std::string& about);
+/// An option that takes a whole number from `low` to `high` in decimal: CLI11 by itself takes 010
+/// for 8. `set` gets the number. @return the option, for what CLI11 has to add to it
+CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low,
+                              std::uint64_t high, std::function<void(std::uint64_t)> set,
+                              const std::string& about);
 
 /// --threads, --seed and --size, for programs that have other options than a chapter's.
 void add_common_options(CLI::App& app, Options& options);

@@ -1,19 +1,19 @@
 #include "common/program/progress.hpp"
 
-#include <cstdio>
-#include <cstdlib>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <cstdio>
+#include <cstdlib>
 
 namespace space {
 namespace {
 
 using namespace std::chrono_literals;
 
-// A job shorter than this shows nothing; a bar moves this often; a log that nobody watches gets a line this often.
+// A job shorter than this shows nothing; a bar moves this often; a log that nobody watches gets a
+// line this often.
 constexpr std::chrono::milliseconds silent_for = 700ms, bar_every = 100ms, line_every = 10s;
 
 bool on_terminal() {
@@ -24,7 +24,10 @@ bool on_terminal() {
 }  // namespace
 
 Progress::Progress(std::string job, std::size_t steps)
-    : job_(std::move(job)), steps_(steps), start_(std::chrono::steady_clock::now()), last_(start_) {}
+    : job_(std::move(job)),
+      steps_(steps),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
 
 Progress::~Progress() {
     if (drawn_ && on_terminal()) std::fputs("\r\033[K", stderr);
@@ -50,8 +53,9 @@ void Progress::draw(std::size_t done) {
     constexpr std::size_t cells = 30;
     const std::size_t full = std::min(cells, percent * cells / 100);
     const bool color = std::getenv("NO_COLOR") == nullptr;
-    fmt::print(stderr, "\r\033[K{} {}{}{}{} {} %", job_, color ? "\033[34m" : "", std::string(full, '#'),
-               color ? "\033[0m" : "", std::string(cells - full, '.'), percent);
+    fmt::print(stderr, "\r\033[K{} {}{}{}{} {} %", job_, color ? "\033[34m" : "",
+               std::string(full, '#'), color ? "\033[0m" : "", std::string(cells - full, '.'),
+               percent);
     std::fflush(stderr);
 }
 

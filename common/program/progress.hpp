@@ -1,5 +1,6 @@
 /// @file
-/// Telling how far a long job is: a bar on a terminal, now and then a plain line elsewhere, on stderr.
+/// Telling how far a long job is: a bar on a terminal, now and then a plain line elsewhere, on
+/// stderr.
 #pragma once
 
 #include <atomic>

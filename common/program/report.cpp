@@ -1,16 +1,17 @@
 #include "common/program/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
-
-#include <fmt/format.h>
 
 namespace space {
 namespace {
 
 /// Characters that a terminal shows: UTF-8 bytes that begin one.
 std::size_t shown_width(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 bool looks_like_number(const std::string& cell) {
@@ -32,7 +33,8 @@ std::string Table::text() const {
         bool numbers = !rows_.empty();
         for (const auto& row : rows_) {
             width = std::max(width, shown_width(row[column]));
-            numbers = numbers && (row[column].empty() || row[column] == "-" || looks_like_number(row[column]));
+            numbers = numbers &&
+                      (row[column].empty() || row[column] == "-" || looks_like_number(row[column]));
         }
         widths.push_back(width);
         numeric.push_back(numbers);
@@ -55,9 +57,13 @@ std::string Table::text() const {
     return result;
 }
 
-void Table::print() const { fmt::print("{}", text()); }
+void Table::print() const {
+    fmt::print("{}", text());
+}
 
-void print_heading(const std::string& text) { fmt::print("\n{}\n{}\n", text, std::string(shown_width(text), '=')); }
+void print_heading(const std::string& text) {
+    fmt::print("\n{}\n{}\n", text, std::string(shown_width(text), '='));
+}
 
 std::string with_commas(std::uint64_t number) {
     std::string digits = std::to_string(number);

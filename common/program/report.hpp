@@ -8,7 +8,8 @@
 
 namespace space {
 
-/// A table with right-aligned numbers and left-aligned words; the width of a column fits its entries.
+/// A table with right-aligned numbers and left-aligned words; the width of a column fits its
+/// entries.
 class Table {
   public:
     explicit Table(std::vector<std::string> headings) : headings_(std::move(headings)) {}

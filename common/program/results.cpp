@@ -1,14 +1,14 @@
 #include "common/program/results.hpp"
 
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
-#include <thread>
+#include "common/program/file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/program/file.hpp"
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <thread>
 
 namespace space {
 namespace {
@@ -17,7 +17,8 @@ std::string processor_name() {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);)
         if (line.starts_with("model name"))
-            if (const std::size_t colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
+            if (const std::size_t colon = line.find(": "); colon != std::string::npos)
+                return line.substr(colon + 2);
     return "unknown processor";
 }
 
@@ -25,9 +26,12 @@ std::string processor_name() {
 
 std::string_view name(Verdict verdict) {
     switch (verdict) {
-        case Verdict::confirmed: return "confirmed";
-        case Verdict::refuted: return "refuted";
-        case Verdict::depends: return "depends";
+        case Verdict::confirmed:
+            return "confirmed";
+        case Verdict::refuted:
+            return "refuted";
+        case Verdict::depends:
+            return "depends";
     }
     return "";
 }
@@ -38,12 +42,14 @@ std::string machine_description() {
 #else
     const std::string compiler = fmt::format("g++ {}.{}", __GNUC__, __GNUC_MINOR__);
 #endif
-    return fmt::format("{}, {} cores, {}", processor_name(), std::thread::hardware_concurrency(), compiler);
+    return fmt::format("{}, {} cores, {}", processor_name(), std::thread::hardware_concurrency(),
+                       compiler);
 }
 
 std::string today() {
     std::time_t now = std::time(nullptr);
-    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) now = static_cast<std::time_t>(std::atoll(epoch));
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))
+        now = static_cast<std::time_t>(std::atoll(epoch));
     std::tm date{};
     gmtime_r(&now, &date);
     return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);

@@ -1,5 +1,6 @@
 /// @file
-/// The results file of a program: the answers to the sources' claims, and the series behind its charts.
+/// The results file of a program: the answers to the sources' claims, and the series behind its
+/// charts.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +16,12 @@ std::string_view name(Verdict verdict);
 
 /// What a program measured about one claim of the sources.
 struct ClaimAnswer {
-    std::string claim;     ///< id in the ledger, such as "H1"
+    std::string claim;  ///< id in the ledger, such as "H1"
     Verdict verdict;
     std::string measured;  ///< one sentence with the numbers
     std::string scene;     ///< what it was measured on
-    std::string rule;      ///< how the verdict follows from the number, such as "slope within 0.9 .. 1.1"
+    std::string
+        rule;  ///< how the verdict follows from the number, such as "slope within 0.9 .. 1.1"
 };
 
 /// Collected by a chapter's program, written once at its end as JSON with the machine and the date.

@@ -1,13 +1,13 @@
 #include "common/program/svg.hpp"
 
+#include "common/program/image.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
 #include <stdexcept>
-
-#include "common/program/image.hpp"
 
 namespace space {
 namespace {
@@ -16,8 +16,9 @@ struct PaletteEntry {
     std::string_view name, light, dark;
 };
 
-// In the order of Ink. The light values of the colours are those of Okabe & Ito; the dark ones are as far apart, and
-// light enough to be read on a dark page. Grey text stands at least 4.5 : 1 against its paper.
+// In the order of Ink. The light values of the colours are those of Okabe & Ito; the dark ones are
+// as far apart, and light enough to be read on a dark page. Grey text stands at least 4.5 : 1
+// against its paper.
 constexpr std::array<PaletteEntry, 11> palette{{
     {"ink", "#1a1a1a", "#ececec"},
     {"paper", "#ffffff", "#1c1d1f"},
@@ -40,7 +41,8 @@ std::string style_block() {
         light += fmt::format("--{}:{};", color.name, color.light);
         dark += fmt::format("--{}:{};", color.name, color.dark);
         for (const std::string_view property : {"fill", "stroke", "color"})
-            rules += fmt::format(".book-figure [{0}=\"{1}\"]{{{0}:var(--{2})}}\n", property, color.light, color.name);
+            rules += fmt::format(".book-figure [{0}=\"{1}\"]{{{0}:var(--{2})}}\n", property,
+                                 color.light, color.name);
     }
     // In a page the paper is the page's own (a variable of the theme's).
     constexpr std::string_view page = "--paper:var(--page-background-color,{});";
@@ -50,8 +52,10 @@ std::string style_block() {
         "@media (prefers-color-scheme:dark){{svg.book-figure{{{1}}}}}\n"
         "html.light-mode svg.book-figure{{{0}{2}}}\n"
         "html.dark-mode svg.book-figure{{{1}{3}}}\n"
-        ".book-figure text{{font-family:system-ui,\"Segoe UI\",Roboto,Helvetica,Arial,\"DejaVu Sans\",sans-serif}}\n"
-        ".book-figure .italic{{font-family:\"Latin Modern Roman\",\"STIX Two Text\",\"Times New Roman\",Times,"
+        ".book-figure text{{font-family:system-ui,\"Segoe UI\",Roboto,Helvetica,Arial,\"DejaVu "
+        "Sans\",sans-serif}}\n"
+        ".book-figure .italic{{font-family:\"Latin Modern Roman\",\"STIX Two Text\",\"Times New "
+        "Roman\",Times,"
         "\"DejaVu Serif\",serif;font-style:italic}}\n"
         ".book-figure .halo{{paint-order:stroke;stroke-width:5;stroke-linejoin:round}}\n"
         ".book-figure .pixels{{image-rendering:pixelated}}\n"
@@ -61,26 +65,29 @@ std::string style_block() {
 }
 
 std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
         unsigned group = 0;
         for (std::size_t k = 0; k < 3; ++k)
             group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63u] : '=';
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= count ? digits[group >> (18 - 6 * k) & 63u] : '=';
     }
     return text;
 }
 
 std::string paint(const Style& style) {
-    std::string attributes = fmt::format(" fill=\"{}\"", style.fill ? svg_color(*style.fill) : "none");
+    std::string attributes =
+        fmt::format(" fill=\"{}\"", style.fill ? svg_color(*style.fill) : "none");
     if (style.fill && style.opacity != 1.0)
         attributes += fmt::format(" fill-opacity=\"{}\"", svg_number(style.opacity));
     if (style.stroke)
-        attributes +=
-            fmt::format(" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
-                        svg_color(*style.stroke), svg_number(line_weight));
+        attributes += fmt::format(
+            " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
+            svg_color(*style.stroke), svg_number(line_weight));
     if (style.stroke && style.dashed) attributes += " stroke-dasharray=\"6 6\"";
     return attributes;
 }
@@ -102,10 +109,12 @@ std::string marked_up(std::string_view text, double size) {
         std::string attributes;
         if (italic) attributes += " class=\"italic\"";
         if (subscript) attributes += fmt::format(" font-size=\"{}\"", svg_number(0.75 * size));
-        if (subscript != dropped) attributes += fmt::format(" dy=\"{}\"", svg_number(subscript ? drop : -drop));
+        if (subscript != dropped)
+            attributes += fmt::format(" dy=\"{}\"", svg_number(subscript ? drop : -drop));
         dropped = subscript;
-        result += attributes.empty() ? svg_escaped(characters)
-                                     : fmt::format("<tspan{}>{}</tspan>", attributes, svg_escaped(characters));
+        result += attributes.empty()
+                      ? svg_escaped(characters)
+                      : fmt::format("<tspan{}>{}</tspan>", attributes, svg_escaped(characters));
     };
     while (!text.empty()) {
         if (text.front() == '*') {
@@ -113,7 +122,8 @@ std::string marked_up(std::string_view text, double size) {
             text.remove_prefix(1);
         } else if (text.front() == '_' && text.size() > 1) {
             const bool braced = text[1] == '{' && text.find('}') != text.npos;
-            const std::string_view sub = braced ? text.substr(2, text.find('}') - 2) : text.substr(1, 1);
+            const std::string_view sub =
+                braced ? text.substr(2, text.find('}') - 2) : text.substr(1, 1);
             run(sub, true);
             text.remove_prefix(braced ? sub.size() + 3 : 2);
         } else {
@@ -163,7 +173,8 @@ std::string svg_number(double value) {
     return text == "-0" ? "0" : text;
 }
 
-std::string svg_opening(std::string_view figure_id, std::string_view title, double width, double height) {
+std::string svg_opening(std::string_view figure_id, std::string_view title, double width,
+                        double height) {
     const std::string w = svg_number(width), h = svg_number(height);
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{0}\" class=\"book-figure\" role=\"img\" "
@@ -178,7 +189,8 @@ Svg::Svg(std::string figure_id, std::string title, double width, double height)
 
 void Svg::element(std::string_view tag, const std::string& attributes, std::string_view id) {
     body_ += fmt::format("<{}", tag);
-    if (!id.empty()) body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
+    if (!id.empty())
+        body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
     body_ += attributes + "/>\n";
 }
 
@@ -188,7 +200,8 @@ void Svg::line(Point2 a, Point2 b, const Style& style, std::string_view id) {
 
 void Svg::polyline(const std::vector<Point2>& points, const Style& style, std::string_view id) {
     std::vector<Point2> shown = points;
-    const bool headed = style.arrow && points.size() > 1 && points.back() != points[points.size() - 2];
+    const bool headed =
+        style.arrow && points.size() > 1 && points.back() != points[points.size() - 2];
     if (headed) {  // the line ends inside the head, or its blunt end would stick out of the tip
         const Vector2 along = glm::normalize(points.back() - points[points.size() - 2]);
         shown.back() -= along * static_cast<float>(0.8 * arrow_length);
@@ -213,28 +226,30 @@ void Svg::polygon(const std::vector<Point2>& points, const Style& style, std::st
 
 void Svg::rect(Point2 corner, Vector2 size, const Style& style, std::string_view id) {
     element("rect",
-            fmt::format(" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", svg_number(corner.x), svg_number(corner.y),
-                        svg_number(size.x), svg_number(size.y)) +
+            fmt::format(" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", svg_number(corner.x),
+                        svg_number(corner.y), svg_number(size.x), svg_number(size.y)) +
                 paint(style),
             id);
 }
 
 void Svg::circle(Point2 centre, double radius, const Style& style, std::string_view id) {
-    element(
-        "circle",
-        fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\"", svg_number(centre.x), svg_number(centre.y), svg_number(radius)) +
-            paint(style),
-        id);
+    element("circle",
+            fmt::format(" cx=\"{}\" cy=\"{}\" r=\"{}\"", svg_number(centre.x), svg_number(centre.y),
+                        svg_number(radius)) +
+                paint(style),
+            id);
 }
 
 void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::string_view id) {
     constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
     body_ += "<text";
-    if (!id.empty()) body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
-    body_ +=
-        fmt::format(" x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"",
-                    svg_number(at.x), svg_number(at.y), svg_number(style.size),
-                    anchors[static_cast<std::size_t>(style.anchor)], svg_color(style.ink));
+    if (!id.empty())
+        body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
+    body_ += fmt::format(
+        " x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" "
+        "fill=\"{}\"",
+        svg_number(at.x), svg_number(at.y), svg_number(style.size),
+        anchors[static_cast<std::size_t>(style.anchor)], svg_color(style.ink));
     if (style.bold) body_ += " font-weight=\"bold\"";
     if (style.halo) body_ += fmt::format(" class=\"halo\" stroke=\"{}\"", svg_color(Ink::paper));
     body_ += ">" + marked_up(text, style.size) + "</text>\n";
@@ -260,12 +275,14 @@ void Svg::end_group() {
 
 void Svg::picture(Point2 corner, Vector2 size, const Image& image, std::string_view id) {
     const bool pixels_show = size.x >= 2.0f * static_cast<float>(image.width());
-    element("image",
-            fmt::format("{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
-                        "href=\"data:image/png;base64,{}\"",
-                        pixels_show ? " class=\"pixels\" image-rendering=\"optimizeSpeed\"" : "", svg_number(corner.x),
-                        svg_number(corner.y), svg_number(size.x), svg_number(size.y), base64(png_bytes(image))),
-            id);
+    element(
+        "image",
+        fmt::format("{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+                    "href=\"data:image/png;base64,{}\"",
+                    pixels_show ? " class=\"pixels\" image-rendering=\"optimizeSpeed\"" : "",
+                    svg_number(corner.x), svg_number(corner.y), svg_number(size.x),
+                    svg_number(size.y), base64(png_bytes(image))),
+        id);
 }
 
 std::string Svg::document() const {

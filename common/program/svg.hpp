@@ -1,27 +1,28 @@
 /// @file
-/// A small SVG writer for the book's drawings: the same bytes for the same calls, ids on the elements, one palette,
-/// one line weight.
+/// A small SVG writer for the book's drawings: the same bytes for the same calls, ids on the
+/// elements, one palette, one line weight.
 ///
-/// Colours follow light and dark pages. Every element carries its light colour as a plain attribute, so that any
-/// program can show the file; the style block maps each of them to a CSS variable (`[stroke="#0072b2"]` to
-/// `var(--blue)`), which the figure sets itself: to its light values, to its dark ones where the reader's system is
-/// dark, and, inlined into a page, to those of the class `light-mode` or `dark-mode` on the page's `<html>`, which
-/// win. The styles hold within `svg.book-figure` only, so many figures can stand in one page.
+/// Colours follow light and dark pages. Every element carries its light colour as a plain
+/// attribute, so that any program can show the file; the style block maps each of them to a CSS
+/// variable (`[stroke="#0072b2"]` to `var(--blue)`), which the figure sets itself: to its light
+/// values, to its dark ones where the reader's system is dark, and, inlined into a page, to those
+/// of the class `light-mode` or `dark-mode` on the page's `<html>`, which win. The styles hold
+/// within `svg.book-figure` only, so many figures can stand in one page.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "common/geometry.hpp"
-
 namespace space {
 
 class Image;
 
-/// Names of the shared colour-blind-safe palette (Okabe & Ito 2008), and of ink, paper and quiet greys. Yellow, sky
-/// and orange are for areas and lines: as text they are too pale.
+/// Names of the shared colour-blind-safe palette (Okabe & Ito 2008), and of ink, paper and quiet
+/// greys. Yellow, sky and orange are for areas and lines: as text they are too pale.
 enum class Ink { ink, paper, quiet, faint, blue, orange, green, vermillion, sky, yellow, purple };
 
 /// Lines of every drawing and chart, in drawing units.
@@ -48,26 +49,31 @@ struct TextStyle {
     bool halo = false;  ///< a rim in the colour of the paper, for text over lines
 };
 
-/// Drawing units with y *downwards*, as in SVG; a drawing is about 640 units wide. An id may be empty; others are
-/// written as FIGURE-id, unique in a page of many figures.
+/// Drawing units with y *downwards*, as in SVG; a drawing is about 640 units wide. An id may be
+/// empty; others are written as FIGURE-id, unique in a page of many figures.
 class Svg {
   public:
     /// The title is read aloud in place of the drawing: one sentence that says what it shows.
     Svg(std::string figure_id, std::string title, double width, double height);
 
     void line(Point2 a, Point2 b, const Style& style = {}, std::string_view id = {});
-    void polyline(const std::vector<Point2>& points, const Style& style = {}, std::string_view id = {});
-    void polygon(const std::vector<Point2>& points, const Style& style = {}, std::string_view id = {});
+    void polyline(const std::vector<Point2>& points, const Style& style = {},
+                  std::string_view id = {});
+    void polygon(const std::vector<Point2>& points, const Style& style = {},
+                 std::string_view id = {});
     void rect(Point2 corner, Vector2 size, const Style& style = {}, std::string_view id = {});
     void circle(Point2 centre, double radius, const Style& style = {}, std::string_view id = {});
-    /// `at` is on the base line. The text may hold "*word*" for italics and "_" for a subscript of one character or
-    /// of "{several}": "*t*_{min}".
-    void text(Point2 at, std::string_view text, const TextStyle& style = {}, std::string_view id = {});
-    /// Groups what follows up to end_group under an id of its own, for scripts that show and hide it.
+    /// `at` is on the base line. The text may hold "*word*" for italics and "_" for a subscript of
+    /// one character or of "{several}": "*t*_{min}".
+    void text(Point2 at, std::string_view text, const TextStyle& style = {},
+              std::string_view id = {});
+    /// Groups what follows up to end_group under an id of its own, for scripts that show and hide
+    /// it.
     void begin_group(std::string_view id);
-    /// Groups what follows up to end_group as a part of a step-through: a page leads its reader through the steps, from
-    /// 0 on, and shows the group from step `first` to step `last` (nothing: to the end) and `tells`, if not empty, at step
-    /// `first`. Where no script runs, what is there at the end shows. Steps may not stand in steps.
+    /// Groups what follows up to end_group as a part of a step-through: a page leads its reader
+    /// through the steps, from 0 on, and shows the group from step `first` to step `last` (nothing:
+    /// to the end) and `tells`, if not empty, at step `first`. Where no script runs, what is there
+    /// at the end shows. Steps may not stand in steps.
     void begin_step(int first, std::optional<int> last = {}, std::string_view tells = {});
     void end_group();
     /// Pixels as an embedded PNG; drawn twice as large or larger, as squares with sharp sides.
@@ -84,11 +90,14 @@ class Svg {
     int open_groups_ = 0;
 };
 
-/// What every figure begins with: the svg tag, the title, the style block and the paper. Ends before "</svg>".
-std::string svg_opening(std::string_view figure_id, std::string_view title, double width, double height);
+/// What every figure begins with: the svg tag, the title, the style block and the paper. Ends
+/// before "</svg>".
+std::string svg_opening(std::string_view figure_id, std::string_view title, double width,
+                        double height);
 /// The light value of a colour, "#0072b2": what stands in the elements' attributes.
 std::string_view svg_color(Ink ink);
-/// Text as it may stand in an element or in an attribute; control characters, which XML forbids, become U+FFFD.
+/// Text as it may stand in an element or in an attribute; control characters, which XML forbids,
+/// become U+FFFD.
 std::string svg_escaped(std::string_view text);
 /// At most two decimals, never "-0". @throws std::invalid_argument where the number is not finite
 std::string svg_number(double value);

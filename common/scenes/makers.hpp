@@ -1,5 +1,6 @@
 /// @file
-/// The functions behind the names of scene_recipes(). Each fills an empty scene; sizes have been checked before.
+/// The functions behind the names of scene_recipes(). Each fills an empty scene; sizes have been
+/// checked before.
 #pragma once
 
 #include "common/scene.hpp"
@@ -10,8 +11,8 @@ namespace space {
 void make_room(Scene& scene, std::uint32_t detail, std::uint64_t seed);
 void make_room_with(Scene& scene, const TriangleMesh& on_table);
 
-// Haines 1987, "A Proposed Standard Set of Problems to Test Ray Tracing Algorithms", and the later additions to it:
-// tessellated, lit and coloured for this book.
+// Haines 1987, "A Proposed Standard Set of Problems to Test Ray Tracing Algorithms", and the later
+// additions to it: tessellated, lit and coloured for this book.
 void make_sphereflake(Scene& scene, std::uint32_t depth, std::uint64_t seed);
 void make_tetra(Scene& scene, std::uint32_t depth, std::uint64_t seed);
 void make_tree(Scene& scene, std::uint32_t depth, std::uint64_t seed);

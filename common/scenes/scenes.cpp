@@ -1,13 +1,13 @@
+#include "common/program/error.hpp"
+#include "common/scenes/makers.hpp"
+#include "common/scenes/shapes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-
-#include "common/program/error.hpp"
-#include "common/scenes/makers.hpp"
-#include "common/scenes/shapes.hpp"
 
 namespace space {
 namespace {
@@ -22,17 +22,20 @@ constexpr const char* bunny_file = "/usr/share/glmark2/models/bunny.obj";
 
 TriangleMesh load_bunny() {
     if (!std::filesystem::exists(bunny_file))
-        throw input_error(fmt::format("{}: not there; it comes with Debian's package glmark2-data", bunny_file));
+        throw input_error(
+            fmt::format("{}: not there; it comes with Debian's package glmark2-data", bunny_file));
     return load_mesh(bunny_file);
 }
 
 /// What ./book scenes fetches; the environment may name another folder.
 TriangleMesh load_fetched(const char* name) {
     const char* const folder = std::getenv("BOOK_SCENES");
-    const std::filesystem::path file = std::filesystem::path(folder ? folder : "build/scenes") / name;
+    const std::filesystem::path file =
+        std::filesystem::path(folder ? folder : "build/scenes") / name;
     if (!std::filesystem::exists(file))
         throw input_error(
-            fmt::format("{}: not there; ./book scenes fetches it (BOOK_SCENES names its folder)", file.string()));
+            fmt::format("{}: not there; ./book scenes fetches it (BOOK_SCENES names its folder)",
+                        file.string()));
     return load_mesh(file);
 }
 
@@ -51,7 +54,8 @@ void make_dragon_871k(Scene& scene, std::uint32_t, std::uint64_t) {
 void make_conference(Scene& scene, std::uint32_t, std::uint64_t) {
     scene.mesh = load_fetched("conference.ply");
     scene.camera = {.eye = {7.0f, 2.4f, 4.2f}, .target = {-2.0f, 0.6f, -0.5f}, .field_of_view = 60};
-    for (const double x : {-5.0, 0.0, 5.0}) add_light(scene, {x, 2.3, 0.3}, {x, 0.7, 0.0}, Color{0.50f, 0.48f, 0.44f});
+    for (const double x : {-5.0, 0.0, 5.0})
+        add_light(scene, {x, 2.3, 0.3}, {x, 0.7, 0.0}, Color{0.50f, 0.48f, 0.44f});
     add_light(scene, {7.0, 2.3, 4.2}, {3.0, 0.7, 0.5}, Color{0.30f, 0.30f, 0.33f});
 }
 void make_forest(Scene& scene, std::uint32_t, std::uint64_t) {
@@ -63,30 +67,50 @@ void make_forest(Scene& scene, std::uint32_t, std::uint64_t) {
 }
 
 constexpr Maker makers[] = {
-    {{"room", "a lit room with a teapot on a table; SIZE: the teapot's detail, or 'bunny' or a mesh file to put there",
+    {{"room",
+      "a lit room with a teapot on a table; SIZE: the teapot's detail, or 'bunny' or a mesh file "
+      "to put there",
       6, 2, 200},
      make_room},
-    {{"sphereflake", "spheres on spheres; SIZE: levels, each with nine times as many", 2, 1, 6}, make_sphereflake},
-    {{"tetra", "Sierpinski's tetrahedron, most rays pass through; SIZE: levels, 4^SIZE triangles", 6, 4, 11},
+    {{"sphereflake", "spheres on spheres; SIZE: levels, each with nine times as many", 2, 1, 6},
+     make_sphereflake},
+    {{"tetra", "Sierpinski's tetrahedron, most rays pass through; SIZE: levels, 4^SIZE triangles",
+      6, 4, 11},
      make_tetra},
     {{"tree", "a forking tree on a huge field; SIZE: levels of branches", 7, 3, 14}, make_tree},
-    {{"mount", "a fractal mountain; SIZE: levels, 2 * 4^SIZE triangles and four balls", 6, 3, 11}, make_mount},
-    {{"lattice", "balls joined by rods along the axes; SIZE: cells along an edge", 4, 1, 40}, make_lattice},
-    {{"shells", "a shell of overlapping balls of many sizes; SIZE: 180 * 2^SIZE + 1 balls", 2, 1, 8}, make_shells},
-    {{"icosphere", "a geodesic sphere; SIZE: its frequency, 20 SIZE^2 triangles", 12, 4, 1000}, make_icosphere},
-    {{"soup", "SIZE random triangles of equal size in the unit cube", 2000, 200, 20'000'000}, make_soup},
-    {{"soup_uneven", "SIZE random triangles whose sizes differ by orders of magnitude", 2000, 200, 20'000'000},
+    {{"mount", "a fractal mountain; SIZE: levels, 2 * 4^SIZE triangles and four balls", 6, 3, 11},
+     make_mount},
+    {{"lattice", "balls joined by rods along the axes; SIZE: cells along an edge", 4, 1, 40},
+     make_lattice},
+    {{"shells", "a shell of overlapping balls of many sizes; SIZE: 180 * 2^SIZE + 1 balls", 2, 1,
+      8},
+     make_shells},
+    {{"icosphere", "a geodesic sphere; SIZE: its frequency, 20 SIZE^2 triangles", 12, 4, 1000},
+     make_icosphere},
+    {{"soup", "SIZE random triangles of equal size in the unit cube", 2000, 200, 20'000'000},
+     make_soup},
+    {{"soup_uneven", "SIZE random triangles whose sizes differ by orders of magnitude", 2000, 200,
+      20'000'000},
      make_soup_uneven},
-    {{"slivers", "SIZE triangles, each as long as the scene and very thin", 1000, 200, 20'000'000}, make_slivers},
+    {{"slivers", "SIZE triangles, each as long as the scene and very thin", 1000, 200, 20'000'000},
+     make_slivers},
     {{"boxes", "a town of SIZE axis-aligned boxes", 400, 36, 1'000'000}, make_boxes},
-    {{"stadium", "a teapot in a stadium: nearly everything in one small place; SIZE: the teapot's detail", 12, 2, 300},
+    {{"stadium",
+      "a teapot in a stadium: nearly everything in one small place; SIZE: the teapot's detail", 12,
+      2, 300},
      make_stadium},
-    {{"building", "a doll's house of SIZE storeys, each of eight furnished rooms", 3, 1, 200}, make_building},
-    {{"bunny", "Stanford's bunny, where Debian's package glmark2-data is installed", 0, 0, 0, true}, make_bunny},
-    {{"dragon_48k", "Stanford's dragon, coarse; ./book scenes fetches it", 0, 0, 0, true}, make_dragon_48k},
-    {{"dragon_871k", "Stanford's dragon; ./book scenes fetches it", 0, 0, 0, true}, make_dragon_871k},
-    {{"conference", "a conference room; ./book scenes puts it together", 0, 0, 0, true}, make_conference},
-    {{"forest", "plants on a wide ground; ./book scenes puts them together", 0, 0, 0, true}, make_forest},
+    {{"building", "a doll's house of SIZE storeys, each of eight furnished rooms", 3, 1, 200},
+     make_building},
+    {{"bunny", "Stanford's bunny, where Debian's package glmark2-data is installed", 0, 0, 0, true},
+     make_bunny},
+    {{"dragon_48k", "Stanford's dragon, coarse; ./book scenes fetches it", 0, 0, 0, true},
+     make_dragon_48k},
+    {{"dragon_871k", "Stanford's dragon; ./book scenes fetches it", 0, 0, 0, true},
+     make_dragon_871k},
+    {{"conference", "a conference room; ./book scenes puts it together", 0, 0, 0, true},
+     make_conference},
+    {{"forest", "plants on a wide ground; ./book scenes puts them together", 0, 0, 0, true},
+     make_forest},
 };
 
 const Maker* find_maker(std::string_view name) {
@@ -97,7 +121,8 @@ const Maker* find_maker(std::string_view name) {
 
 std::string all_names() {
     std::string names;
-    for (const Maker& maker : makers) names += fmt::format("{}{}", names.empty() ? "" : ", ", maker.recipe.name);
+    for (const Maker& maker : makers)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", maker.recipe.name);
     return names;
 }
 
@@ -105,10 +130,13 @@ std::string all_names() {
 std::uint32_t parse_size(const SceneRecipe& recipe, std::string_view text) {
     std::uint32_t size = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
-    if (recipe.default_size == 0) throw usage_error(fmt::format("scene {}: it has no size, '{}'", recipe.name, text));
-    if (error != std::errc{} || end != text.data() + text.size() || size < 1 || size > recipe.max_size)
-        throw usage_error(fmt::format("scene {}: the size must be a whole number from 1 to {}, not '{}'", recipe.name,
-                                      recipe.max_size, text));
+    if (recipe.default_size == 0)
+        throw usage_error(fmt::format("scene {}: it has no size, '{}'", recipe.name, text));
+    if (error != std::errc{} || end != text.data() + text.size() || size < 1 ||
+        size > recipe.max_size)
+        throw usage_error(
+            fmt::format("scene {}: the size must be a whole number from 1 to {}, not '{}'",
+                        recipe.name, recipe.max_size, text));
     return size;
 }
 
@@ -136,9 +164,11 @@ Scene make_scene(std::string_view spec, std::uint64_t seed, bool small) {
     const std::string_view name = spec.substr(0, colon);
     const Maker* const maker = find_maker(name);
     if (!maker) {
-        if (spec.find_first_of("./") != std::string_view::npos) return load_scene(std::string(spec));
-        throw usage_error(fmt::format("no scene is called '{}': give a mesh file (.obj, .off, .ply, .stl) or one of {}",
-                                      name, all_names()));
+        if (spec.find_first_of("./") != std::string_view::npos)
+            return load_scene(std::string(spec));
+        throw usage_error(fmt::format(
+            "no scene is called '{}': give a mesh file (.obj, .off, .ply, .stl) or one of {}", name,
+            all_names()));
     }
     Scene scene;
     scene.name = name;
@@ -161,23 +191,30 @@ void frame_mesh(Scene& scene) {
     const Double3 target = 0.5 * (Double3(box.min) + Double3(box.max));
     scene.camera = {.target = Point3(target), .field_of_view = 32.0f};
     const Double3 from = glm::normalize(Double3{0.35, 0.3, 1.0});
-    // As near as the picture's frame allows, with a margin, if the picture is at least as wide as high.
+    // As near as the picture's frame allows, with a margin, if the picture is at least as wide as
+    // high.
     scene.camera.eye = Point3(target + from);
-    const CameraFrame frame({.eye = Point3(from), .target = Point3(0.0f), .field_of_view = scene.camera.field_of_view});
+    const CameraFrame frame(
+        {.eye = Point3(from), .target = Point3(0.0f), .field_of_view = scene.camera.field_of_view});
     constexpr double filled = 0.9;  // of the picture's height or width
     double distance = 0.0;
     for (const Point3& vertex : scene.mesh.vertices) {
         const Double3 p = Double3(vertex) - target;
-        const double off_axis = std::max(std::abs(glm::dot(p, frame.up)), std::abs(glm::dot(p, frame.right)));
-        distance = std::max(distance, glm::dot(p, frame.back) + off_axis / (filled * frame.tan_half_fov));
+        const double off_axis =
+            std::max(std::abs(glm::dot(p, frame.up)), std::abs(glm::dot(p, frame.right)));
+        distance =
+            std::max(distance, glm::dot(p, frame.back) + off_axis / (filled * frame.tan_half_fov));
     }
     if (distance == 0.0) distance = 1.0;  // a single point
     const Double3 eye = target + distance * from;
     scene.camera.eye = Point3(eye);
     scene.background = srgb(0xDCE6EE);
-    add_light(scene, target + distance * Double3{-0.8, 1.1, 1.0}, target, Color{0.95f, 0.88f, 0.78f});
-    add_light(scene, target + distance * Double3{1.2, 0.3, 0.9}, target, Color{0.16f, 0.20f, 0.26f});
-    add_light(scene, target + distance * Double3{0.3, 0.2, 1.5}, target, Color{0.12f, 0.12f, 0.12f});
+    add_light(scene, target + distance * Double3{-0.8, 1.1, 1.0}, target,
+              Color{0.95f, 0.88f, 0.78f});
+    add_light(scene, target + distance * Double3{1.2, 0.3, 0.9}, target,
+              Color{0.16f, 0.20f, 0.26f});
+    add_light(scene, target + distance * Double3{0.3, 0.2, 1.5}, target,
+              Color{0.12f, 0.12f, 0.12f});
 }
 
 }  // namespace space

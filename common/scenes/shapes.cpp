@@ -14,7 +14,8 @@ std::uint32_t count(const TriangleMesh& mesh) {
     return static_cast<std::uint32_t>(mesh.vertices.size());
 }
 
-void add_quad(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+void add_quad(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+              std::uint32_t d) {
     mesh.faces.push_back({a, b, c});
     mesh.faces.push_back({a, c, d});
 }
@@ -29,34 +30,42 @@ glm::dvec2 on_circle(std::uint32_t i, std::uint32_t n) {
 
 TriangleMesh icosphere(std::uint32_t frequency) {
     const std::uint32_t f = frequency;
-    const double phi = std::numbers::phi;  // (0, +-1, +-phi) and its cyclic permutations are an icosahedron
-    const Double3 corners[12] = {{-1, phi, 0},  {1, phi, 0},  {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi},  {0, 1, phi},
-                                 {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1},  {phi, 0, 1},  {-phi, 0, -1}, {-phi, 0, 1}};
-    constexpr std::uint32_t faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                                            {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                            {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                                            {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+    const double phi =
+        std::numbers::phi;  // (0, +-1, +-phi) and its cyclic permutations are an icosahedron
+    const Double3 corners[12] = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
+                                 {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
+                                 {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
+    constexpr std::uint32_t faces[20][3] = {
+        {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     TriangleMesh mesh;
     mesh.vertices.reserve(10 * std::size_t{f} * f + 2);
     mesh.faces.reserve(20 * std::size_t{f} * f);
-    const auto add_vertex = [&](const Double3& p) { mesh.vertices.push_back(Point3(glm::normalize(p))); };
+    const auto add_vertex = [&](const Double3& p) {
+        mesh.vertices.push_back(Point3(glm::normalize(p)));
+    };
     for (const Double3& corner : corners) add_vertex(corner);
 
-    // Inner points of an edge, made when its first face comes: from its smaller to its larger corner.
+    // Inner points of an edge, made when its first face comes: from its smaller to its larger
+    // corner.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
-    const auto edge_point = [&](std::uint32_t a, std::uint32_t b, std::uint32_t step) {  // step of f from a to b
+    const auto edge_point = [&](std::uint32_t a, std::uint32_t b,
+                                std::uint32_t step) {  // step of f from a to b
         if (a > b) {
             std::swap(a, b);
             step = f - step;
         }
         const auto [edge, fresh] = edges.try_emplace({a, b}, count(mesh));
         if (fresh)
-            for (std::uint32_t i = 1; i < f; ++i) add_vertex(double(f - i) * corners[a] + double(i) * corners[b]);
+            for (std::uint32_t i = 1; i < f; ++i)
+                add_vertex(double(f - i) * corners[a] + double(i) * corners[b]);
         return edge->second + step - 1;
     };
 
     for (const auto& [a, b, c] : faces) {
-        // Points of the face in rows from a to the edge bc; row r holds r + 1 points from the edge ab to the edge ac.
+        // Points of the face in rows from a to the edge bc; row r holds r + 1 points from the edge
+        // ab to the edge ac.
         std::vector<std::uint32_t> row{a}, next;
         for (std::uint32_t r = 1; r <= f; ++r) {
             next.clear();
@@ -73,7 +82,8 @@ TriangleMesh icosphere(std::uint32_t frequency) {
                     next.push_back(edge_point(a, c, r));
                 else {
                     next.push_back(count(mesh));
-                    add_vertex(double(f - r) * corners[a] + double(r - k) * corners[b] + double(k) * corners[c]);
+                    add_vertex(double(f - r) * corners[a] + double(r - k) * corners[b] +
+                               double(k) * corners[c]);
                 }
             }
             for (std::uint32_t k = 0; k < r; ++k) {
@@ -93,7 +103,8 @@ TriangleMesh ball(const Double3& center, double radius, std::uint32_t frequency)
 TriangleMesh box(const Double3& min, const Double3& max) {
     TriangleMesh mesh;
     for (int corner = 0; corner < 8; ++corner)
-        mesh.vertices.emplace_back(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z);
+        mesh.vertices.emplace_back(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
+                                   corner & 4 ? max.z : min.z);
     add_quad(mesh, 0, 4, 6, 2);  // -x
     add_quad(mesh, 1, 3, 7, 5);  // +x
     add_quad(mesh, 0, 1, 5, 4);  // -y
@@ -105,7 +116,8 @@ TriangleMesh box(const Double3& min, const Double3& max) {
 
 TriangleMesh parallelogram(const Double3& corner, const Double3& u, const Double3& v) {
     TriangleMesh mesh;
-    for (const Double3& p : {corner, corner + u, corner + u + v, corner + v}) mesh.vertices.emplace_back(p);
+    for (const Double3& p : {corner, corner + u, corner + u + v, corner + v})
+        mesh.vertices.emplace_back(p);
     add_quad(mesh, 0, 1, 2, 3);
     return mesh;
 }
@@ -118,7 +130,8 @@ TriangleMesh lathe(std::span<const glm::dvec2> profile, std::uint32_t segments) 
         const std::uint32_t ring = count(mesh);
         for (std::uint32_t i = 0; i < (point ? 1 : segments); ++i) {
             const glm::dvec2 direction = on_circle(i, segments);
-            mesh.vertices.emplace_back(profile[k].x * direction.x, profile[k].y, -profile[k].x * direction.y);
+            mesh.vertices.emplace_back(profile[k].x * direction.x, profile[k].y,
+                                       -profile[k].x * direction.y);
         }
         for (std::uint32_t i = 0; k > 0 && i < segments; ++i) {
             const std::uint32_t j = (i + 1) % segments;
@@ -139,8 +152,8 @@ TriangleMesh tube(std::span<const TubePoint> path, std::uint32_t sides, bool cap
     TriangleMesh mesh;
     Double3 u{0.0};
     for (std::size_t k = 0; k < path.size(); ++k) {
-        const Double3 along =
-            glm::normalize(path[std::min(k + 1, path.size() - 1)].center - path[k > 0 ? k - 1 : 0].center);
+        const Double3 along = glm::normalize(path[std::min(k + 1, path.size() - 1)].center -
+                                             path[k > 0 ? k - 1 : 0].center);
         if (k == 0) {
             const Double3 away = std::abs(along.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0};
             u = glm::normalize(glm::cross(along, away));
@@ -151,7 +164,8 @@ TriangleMesh tube(std::span<const TubePoint> path, std::uint32_t sides, bool cap
         const std::uint32_t ring = count(mesh);
         for (std::uint32_t i = 0; i < sides; ++i) {
             const glm::dvec2 direction = on_circle(i, sides);
-            mesh.vertices.emplace_back(path[k].center + path[k].radius * (direction.x * u + direction.y * v));
+            mesh.vertices.emplace_back(path[k].center +
+                                       path[k].radius * (direction.x * u + direction.y * v));
         }
         for (std::uint32_t i = 0; k > 0 && i < sides; ++i) {
             const std::uint32_t j = (i + 1) % sides;
@@ -177,11 +191,12 @@ std::vector<glm::dvec2> smooth_curve(std::span<const glm::dvec2> points, std::ui
     std::vector<glm::dvec2> curve{points.front()};
     for (std::size_t k = 1; k < points.size(); ++k) {
         const glm::dvec2 p1 = points[k - 1], p2 = points[k];
-        const glm::dvec2 p0 = k >= 2 ? points[k - 2] : p1, p3 = k + 1 < points.size() ? points[k + 1] : p2;
+        const glm::dvec2 p0 = k >= 2 ? points[k - 2] : p1,
+                         p3 = k + 1 < points.size() ? points[k + 1] : p2;
         for (std::uint32_t step = 1; step < steps; ++step) {
             const double t = double(step) / steps;
-            const glm::dvec2 bend =
-                (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3) * t + (3.0 * p1 - p0 - 3.0 * p2 + p3) * (t * t);
+            const glm::dvec2 bend = (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3) * t +
+                                    (3.0 * p1 - p0 - 3.0 * p2 + p3) * (t * t);
             curve.push_back(p1 + 0.5 * t * (p2 - p0 + bend));
         }
         curve.push_back(p2);
@@ -197,22 +212,26 @@ TriangleMesh teapot(std::uint32_t detail) {
     const glm::dvec2 lid[] = {{0.064, 0.165}, {0.045, 0.182}, {0.016, 0.190}};
     const glm::dvec2 knob[] = {{0.012, 0.196}, {0.020, 0.208}, {0.0, 0.220}};
     std::vector<glm::dvec2> profile{{0.0, 0.0}};
-    for (const std::span<const glm::dvec2> part : {std::span<const glm::dvec2>(body), {lid}, {knob}})
+    for (const std::span<const glm::dvec2> part :
+         {std::span<const glm::dvec2>(body), {lid}, {knob}})
         for (const glm::dvec2& point : smooth_curve(part, n)) profile.push_back(point);
     mesh.append(lathe(profile, segments));
 
-    const auto bent_tube = [&](std::span<const glm::dvec2> path, double first_radius, double last_radius) {
+    const auto bent_tube = [&](std::span<const glm::dvec2> path, double first_radius,
+                               double last_radius) {
         std::vector<TubePoint> points;
         const std::vector<glm::dvec2> curve = smooth_curve(path, n);
         for (std::size_t i = 0; i < curve.size(); ++i) {
             const double t = double(i) / double(curve.size() - 1);
-            points.push_back({{curve[i].x, curve[i].y, 0.0}, first_radius + (last_radius - first_radius) * t});
+            points.push_back(
+                {{curve[i].x, curve[i].y, 0.0}, first_radius + (last_radius - first_radius) * t});
         }
         mesh.append(tube(points, 2 * n + 2));
     };
     const glm::dvec2 spout[] = {{0.100, 0.055}, {0.160, 0.075}, {0.178, 0.125}, {0.215, 0.158}};
     bent_tube(spout, 0.032, 0.013);
-    const glm::dvec2 handle[] = {{-0.100, 0.140}, {-0.165, 0.150}, {-0.190, 0.105}, {-0.165, 0.060}, {-0.110, 0.045}};
+    const glm::dvec2 handle[] = {
+        {-0.100, 0.140}, {-0.165, 0.150}, {-0.190, 0.105}, {-0.165, 0.060}, {-0.110, 0.045}};
     bent_tube(handle, 0.012, 0.010);
     return mesh;
 }
@@ -229,9 +248,10 @@ TriangleMesh transformed(TriangleMesh mesh, const glm::dmat3& matrix, const Doub
 glm::dmat3 rotation(const Double3& axis, double degrees) {
     const double angle = degrees * pi / 180.0, c = std::cos(angle), s = std::sin(angle);
     const Double3 a = axis;
-    return {{c + a.x * a.x * (1 - c), a.y * a.x * (1 - c) + a.z * s, a.z * a.x * (1 - c) - a.y * s},
-            {a.x * a.y * (1 - c) - a.z * s, c + a.y * a.y * (1 - c), a.z * a.y * (1 - c) + a.x * s},
-            {a.x * a.z * (1 - c) + a.y * s, a.y * a.z * (1 - c) - a.x * s, c + a.z * a.z * (1 - c)}};
+    return {
+        {c + a.x * a.x * (1 - c), a.y * a.x * (1 - c) + a.z * s, a.z * a.x * (1 - c) - a.y * s},
+        {a.x * a.y * (1 - c) - a.z * s, c + a.y * a.y * (1 - c), a.z * a.y * (1 - c) + a.x * s},
+        {a.x * a.z * (1 - c) + a.y * s, a.y * a.z * (1 - c) - a.x * s, c + a.z * a.z * (1 - c)}};
 }
 
 TriangleMesh turned_inside_out(TriangleMesh mesh) {
@@ -246,7 +266,8 @@ void add(Scene& scene, const TriangleMesh& mesh, const Color& color) {
 
 void add_light(Scene& scene, const Double3& position, const Double3& lit, const Color& brightness) {
     const Double3 way = position - lit;
-    scene.lights.push_back({Point3(position), brightness * static_cast<float>(pi * glm::dot(way, way))});
+    scene.lights.push_back(
+        {Point3(position), brightness * static_cast<float>(pi * glm::dot(way, way))});
 }
 
 void add_eye_light(Scene& scene, const Color& brightness) {
@@ -257,7 +278,8 @@ Color srgb(std::uint32_t rgb) {
     Color color;
     for (int channel = 0; channel < 3; ++channel) {
         const double c = ((rgb >> (16 - 8 * channel)) & 0xFF) / 255.0;  // IEC 61966-2-1
-        color[channel] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+        color[channel] =
+            static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
     }
     return color;
 }

@@ -1,11 +1,12 @@
 /// @file
-/// Scenes that are easy or hard for structures: clouds of random triangles, a sphere of many equal ones.
-#include <algorithm>
-#include <cmath>
-
+/// Scenes that are easy or hard for structures: clouds of random triangles, a sphere of many equal
+/// ones.
 #include "common/pcg32.hpp"
 #include "common/scenes/makers.hpp"
 #include "common/scenes/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace space {
 namespace {
@@ -36,11 +37,13 @@ std::pair<Double3, Double3> random_orientation(Pcg32& random) {
 }
 
 Double3 in_unit_cube(Pcg32& random) {
-    const double x = random.uniform_double(), y = random.uniform_double(), z = random.uniform_double();
+    const double x = random.uniform_double(), y = random.uniform_double(),
+                 z = random.uniform_double();
     return {x, y, z};
 }
 
-void add_triangle(Scene& scene, const Double3& a, const Double3& b, const Double3& c, const Color& color) {
+void add_triangle(Scene& scene, const Double3& a, const Double3& b, const Double3& c,
+                  const Color& color) {
     const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
     for (const Double3& p : {a, b, c}) scene.mesh.vertices.emplace_back(p);
     scene.mesh.faces.push_back({first, first + 1, first + 2});
@@ -52,12 +55,13 @@ void add_random_triangle(Scene& scene, double radius, Pcg32& random) {
     const Double3 center = in_unit_cube(random);
     const auto [u, v] = random_orientation(random);
     const double half = 0.5 * radius, wide = std::sqrt(0.75) * radius;
-    add_triangle(scene, center + radius * u, center - half * u + wide * v, center - half * u - wide * v,
-                 any_color(random));
+    add_triangle(scene, center + radius * u, center - half * u + wide * v,
+                 center - half * u - wide * v, any_color(random));
 }
 
 void look_at_unit_cube(Scene& scene) {
-    scene.camera = {.eye = {1.65f, 1.25f, 2.35f}, .target = {0.5f, 0.47f, 0.5f}, .field_of_view = 32};
+    scene.camera = {
+        .eye = {1.65f, 1.25f, 2.35f}, .target = {0.5f, 0.47f, 0.5f}, .field_of_view = 32};
     scene.background = srgb(0x1E2A33);
     add_light(scene, {1.2, 2.6, 2.2}, {0.5, 0.5, 0.5}, Color{1.1f, 1.02f, 0.9f});
     add_light(scene, {-1.5, 0.6, 1.8}, {0.5, 0.5, 0.5}, Color{0.30f, 0.36f, 0.44f});
@@ -73,7 +77,8 @@ void make_soup(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
     look_at_unit_cube(scene);
 }
 
-/// Half of the sizes fall like 1 / sqrt(k), k = 1 .. N; the other half also by a factor of up to 2^14.
+/// Half of the sizes fall like 1 / sqrt(k), k = 1 .. N; the other half also by a factor of up to
+/// 2^14.
 void make_soup_uneven(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
     Pcg32 random(seed);
     for (std::uint32_t k = 1; k <= triangles; ++k) {
@@ -84,7 +89,8 @@ void make_soup_uneven(Scene& scene, std::uint32_t triangles, std::uint64_t seed)
     look_at_unit_cube(scene);
 }
 
-/// Straws through the cube: triangles of length 1 and width 6 / N, so that a ray meets about as many for any N.
+/// Straws through the cube: triangles of length 1 and width 6 / N, so that a ray meets about as
+/// many for any N.
 void make_slivers(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
     Pcg32 random(seed);
     const double half_width = std::min(0.02, 3.0 / triangles);
@@ -109,14 +115,19 @@ void make_boxes(Scene& scene, std::uint32_t boxes, std::uint64_t seed) {
     const double cell = 2.0 / side;
     for (std::uint32_t i = 0; i < boxes; ++i) {
         const double x = -1.0 + cell * (i % side), z = -1.0 + cell * (i / side);
-        const double west = 0.06 + 0.14 * random.uniform_double(), east = 0.80 + 0.14 * random.uniform_double();
-        const double north = 0.06 + 0.14 * random.uniform_double(), south = 0.80 + 0.14 * random.uniform_double();
+        const double west = 0.06 + 0.14 * random.uniform_double(),
+                     east = 0.80 + 0.14 * random.uniform_double();
+        const double north = 0.06 + 0.14 * random.uniform_double(),
+                     south = 0.80 + 0.14 * random.uniform_double();
         const double away = std::hypot(x + 0.5 * cell, z + 0.5 * cell), u = random.uniform_double();
         const double height = cell * (0.4 + 2.6 * u * u + 3.0 * u * std::exp(-4.0 * away * away));
-        add(scene, box({x + west * cell, 0, z + north * cell}, {x + east * cell, height, z + south * cell}),
+        add(scene,
+            box({x + west * cell, 0, z + north * cell},
+                {x + east * cell, height, z + south * cell}),
             walls[random.below(7)]);
     }
-    scene.camera = {.eye = {1.75f, 1.55f, 2.3f}, .target = {0.0f, -0.04f, 0.08f}, .field_of_view = 38};
+    scene.camera = {
+        .eye = {1.75f, 1.55f, 2.3f}, .target = {0.0f, -0.04f, 0.08f}, .field_of_view = 38};
     scene.background = srgb(0xC9DEE8);
     add_light(scene, {-2.6, 3.2, 1.6}, {0, 0, 0}, Color{0.95f, 0.86f, 0.70f});
     add_light(scene, {3.0, 2.0, -1.0}, {0, 0, 0}, Color{0.20f, 0.24f, 0.30f});
@@ -126,7 +137,9 @@ void make_boxes(Scene& scene, std::uint32_t boxes, std::uint64_t seed) {
 /// "Teapot in a stadium": nearly all triangles in a hundredth of the hall's length.
 void make_stadium(Scene& scene, std::uint32_t detail, std::uint64_t) {
     constexpr double length = 120.0, width = 80.0, height = 24.0;  // metres
-    add(scene, turned_inside_out(box({-0.5 * length, 0, -0.5 * width}, {0.5 * length, height, 0.5 * width})),
+    add(scene,
+        turned_inside_out(
+            box({-0.5 * length, 0, -0.5 * width}, {0.5 * length, height, 0.5 * width})),
         srgb(0x9DB7C4));
     add(scene, parallelogram({-34, 0.01, 22}, {68, 0, 0}, {0, 0, -44}), srgb(0x5E8F57));
     constexpr int rows = 12;
@@ -140,13 +153,17 @@ void make_stadium(Scene& scene, std::uint32_t detail, std::uint64_t) {
                     {0.5 * length, top, side > 0 ? inner + 1.2 : -inner}),
                 color);
             const double end = inner + 16.0;
-            add(scene, box({side > 0 ? end : -end - 1.2, 0, -22}, {side > 0 ? end + 1.2 : -end, top, 22}), color);
+            add(scene,
+                box({side > 0 ? end : -end - 1.2, 0, -22}, {side > 0 ? end + 1.2 : -end, top, 22}),
+                color);
         }
     }
     add(scene, box({-0.3, 0.01, -0.3}, {0.3, 0.9, 0.3}), srgb(0xEDE6DA));
-    add(scene, transformed(teapot(detail), 1.4 * rotation({0, 1, 0}, -25), {0, 0.9, 0}), srgb(0xC8752F));
+    add(scene, transformed(teapot(detail), 1.4 * rotation({0, 1, 0}, -25), {0, 0.9, 0}),
+        srgb(0xC8752F));
 
-    scene.camera = {.eye = {0.62f, 1.22f, 1.9f}, .target = {0.02f, 1.10f, 0.0f}, .field_of_view = 40};
+    scene.camera = {
+        .eye = {0.62f, 1.22f, 1.9f}, .target = {0.02f, 1.10f, 0.0f}, .field_of_view = 40};
     scene.background = srgb(0xC4DDEB);
     add_light(scene, {-30, 22, 30}, {0, 1, 0}, Color{0.72f, 0.70f, 0.66f});
     add_light(scene, {30, 22, 20}, {0, 1, 0}, Color{0.34f, 0.35f, 0.38f});
@@ -156,8 +173,10 @@ void make_stadium(Scene& scene, std::uint32_t detail, std::uint64_t) {
 
 void make_icosphere(Scene& scene, std::uint32_t frequency, std::uint64_t) {
     scene.mesh = icosphere(frequency);
-    // One colour for each of the icosahedron's 20 faces: neighbours differ, and all faces of a colour are far apart.
-    const Color colors[5] = {srgb(0xD98E4A), srgb(0xC8553D), srgb(0x3D7C88), srgb(0xE7DBC3), srgb(0x7FA38C)};
+    // One colour for each of the icosahedron's 20 faces: neighbours differ, and all faces of a
+    // colour are far apart.
+    const Color colors[5] = {srgb(0xD98E4A), srgb(0xC8553D), srgb(0x3D7C88), srgb(0xE7DBC3),
+                             srgb(0x7FA38C)};
     constexpr int color_of[20] = {0, 1, 2, 3, 4, 2, 3, 1, 0, 4, 0, 1, 2, 3, 4, 4, 4, 4, 2, 1};
     for (std::size_t face = 0; face < scene.mesh.faces.size(); ++face)
         scene.colors.push_back(colors[color_of[face / (std::size_t{frequency} * frequency)]]);

@@ -1,27 +1,28 @@
-/// Puts two large scenes together from furniture that Debian packages: a conference room and a forest. ./book scenes
-/// calls it.
-/// Run   assemble_scenes FURNITURE OUT     FURNITURE: the unpacked BlendSwap-CC-0.sh3f and Scopia.sh3f
+/// Puts two large scenes together from furniture that Debian packages: a conference room and a
+/// forest. ./book scenes calls it. Run   assemble_scenes FURNITURE OUT     FURNITURE: the unpacked
+/// BlendSwap-CC-0.sh3f and Scopia.sh3f
+#include "common/mesh.hpp"
+#include "common/program/error.hpp"
+#include "common/scenes/shapes.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
-
-#include "common/program/error.hpp"
-#include "common/mesh.hpp"
-#include "common/scenes/shapes.hpp"
 
 namespace {
 
 using namespace space;
 namespace fs = std::filesystem;
 
-/// A model of the catalogue, `size` metres in x, y (up) and z, standing on y = 0 with its middle at x = z = 0. The
-/// files are in any unit.
+/// A model of the catalogue, `size` metres in x, y (up) and z, standing on y = 0 with its middle at
+/// x = z = 0. The files are in any unit.
 TriangleMesh model(const fs::path& file, const Double3& size) {
     const TriangleMesh mesh = load_mesh(file);
     const Aabb box = bounds(mesh);
     const Double3 extent(box.extent()), scale = size / extent;
-    const Double3 foot{0.5 * (double(box.min.x) + box.max.x), box.min.y, 0.5 * (double(box.min.z) + box.max.z)};
+    const Double3 foot{0.5 * (double(box.min.x) + box.max.x), box.min.y,
+                       0.5 * (double(box.min.z) + box.max.z)};
     return transformed(mesh, {{scale.x, 0, 0}, {0, scale.y, 0}, {0, 0, scale.z}}, -foot * scale);
 }
 
@@ -29,7 +30,8 @@ TriangleMesh placed(const TriangleMesh& mesh, double x, double z, double degrees
     return transformed(mesh, rotation({0, 1, 0}, degrees), {x, 0, z});
 }
 
-/// Twenty-six chairs about a table of slats, under a grid of beams: long thin triangles beside many tiny ones.
+/// Twenty-six chairs about a table of slats, under a grid of beams: long thin triangles beside many
+/// tiny ones.
 TriangleMesh conference_room(const fs::path& furniture) {
     TriangleMesh room = turned_inside_out(box({-8, 0, -5}, {8, 3.2, 5}));
     for (int slat = 0; slat < 40; ++slat) {
@@ -37,7 +39,8 @@ TriangleMesh conference_room(const fs::path& furniture) {
         room.append(box({x, 0.70, -1.2}, {x + 0.23, 0.74, 1.2}));
     }
     for (const double x : {-4.5, 0.0, 4.5})
-        for (const double z : {-0.9, 0.9}) room.append(box({x - 0.05, 0, z - 0.05}, {x + 0.05, 0.70, z + 0.05}));
+        for (const double z : {-0.9, 0.9})
+            room.append(box({x - 0.05, 0, z - 0.05}, {x + 0.05, 0.70, z + 0.05}));
     for (int beam = 0; beam <= 64; ++beam)
         room.append(box({-8 + 0.25 * beam, 3.05, -5}, {-7.98 + 0.25 * beam, 3.1, 5}));
     for (int beam = 0; beam <= 40; ++beam)
@@ -49,7 +52,8 @@ TriangleMesh conference_room(const fs::path& furniture) {
             room.append(box({x + 0.03, 3.12, z + 0.03}, {x + 0.24, 3.14, z + 0.24}));
         }
 
-    const TriangleMesh chair = model(furniture / "blendswap-cc-0/chair/chair.obj", {0.513, 0.80, 0.531});
+    const TriangleMesh chair =
+        model(furniture / "blendswap-cc-0/chair/chair.obj", {0.513, 0.80, 0.531});
     for (int i = 0; i < 12; ++i) {
         room.append(placed(chair, -4.7 + 0.85 * i, 1.55, 180));
         room.append(placed(chair, -4.7 + 0.85 * i, -1.55, 0));
@@ -63,7 +67,9 @@ TriangleMesh conference_room(const fs::path& furniture) {
 TriangleMesh forest(const fs::path& furniture) {
     constexpr int cells = 125;
     constexpr double side = 30;  // metres
-    const auto height = [](double x, double z) { return 0.4 * std::sin(0.5 * x) * std::cos(0.37 * z); };
+    const auto height = [](double x, double z) {
+        return 0.4 * std::sin(0.5 * x) * std::cos(0.37 * z);
+    };
     TriangleMesh ground;
     for (int row = 0; row <= cells; ++row)
         for (int column = 0; column <= cells; ++column) {

@@ -7,8 +7,8 @@ using namespace space;
 
 namespace {
 
-/// Two walls side by side, 5 in front of the eye, of two triangles each: together they fill the picture. The light is
-/// at the eye.
+/// Two walls side by side, 5 in front of the eye, of two triangles each: together they fill the
+/// picture. The light is at the eye.
 Scene two_walls() {
     Scene scene;
     scene.mesh.vertices = {{-9, -9, 0}, {0, -9, 0}, {0, 9, 0}, {-9, 9, 0}, {9, -9, 0}, {9, 9, 0}};
@@ -19,10 +19,12 @@ Scene two_walls() {
     return scene;
 }
 
-/// A small triangle half way between a floor and the light above it, and the floor *last* in the list.
+/// A small triangle half way between a floor and the light above it, and the floor *last* in the
+/// list.
 Scene shaded_floor() {
     Scene scene;
-    scene.mesh.vertices = {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, {-10, -10, 0}, {10, -10, 0}, {0, 10, 0}};
+    scene.mesh.vertices = {{-1, -1, 1},   {1, -1, 1},   {0, 1, 1},
+                           {-10, -10, 0}, {10, -10, 0}, {0, 10, 0}};
     scene.mesh.faces = {{0, 1, 2}, {3, 4, 5}};
     scene.lights = {{.position = {0, 0, 2}, .intensity = Color(8.0f)}};
     return scene;
@@ -47,7 +49,8 @@ TEST_CASE("as printed: a later polygon that is missed erases the hit") {
     const CameraFrame frame(scene.camera);
     for (int y = 0; y < settings.height; ++y)
         for (int x = 0; x < settings.width; ++x) {
-            const Ray ray = camera_ray(scene.camera, frame, x + 0.5, y + 0.5, settings.width, settings.height);
+            const Ray ray =
+                camera_ray(scene.camera, frame, x + 0.5, y + 0.5, settings.width, settings.height);
             const bool last_is_hit = MollerTrumbore::intersect(ray, triangles.back()).has_value();
             CHECK((printed.image.at(x, y) != scene.background) == last_is_hit);
         }
@@ -58,7 +61,8 @@ TEST_CASE("as printed: a later polygon that is missed erases the hit") {
 TEST_CASE("as printed: the shadow ray's result is never used") {
     const Scene scene = shaded_floor();
     const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const Ray ray{.origin = {3, 0, 3}, .direction = {-1, 0, -1}};  // to the floor's origin, past the small triangle
+    const Ray ray{.origin = {3, 0, 3},
+                  .direction = {-1, 0, -1}};  // to the floor's origin, past the small triangle
     RenderCounts rays;
     NoCounts none;
     CHECK(color_of_ray(scene, Naive<>::build(triangles), ray, rays, none) == Color(0.0f));
@@ -68,23 +72,26 @@ TEST_CASE("as printed: the shadow ray's result is never used") {
     CHECK(printed->x > 0.0f);
 }
 
-TEST_CASE("every camera ray is tested against every triangle, every shadow ray until the first hit") {
+TEST_CASE(
+    "every camera ray is tested against every triangle, every shadow ray until the first hit") {
     const Scene scene = two_walls();
     const Rendering rendering = render(scene, Naive<>::build(scene.mesh.triangles()), settings);
     // Nothing occludes: 4 tests for the camera ray and 4 for the shadow ray of each pixel.
     CHECK(rendering.counts.camera_rays == 1200);
     CHECK(rendering.counts.traversal.triangles_tested == 1200 * 4 + 1200 * 4);
-    CHECK(render<NoCounts>(scene, Naive<>::build(scene.mesh.triangles()), settings).counts.traversal ==
-          TraversalCounts{});
+    CHECK(render<NoCounts>(scene, Naive<>::build(scene.mesh.triangles()), settings)
+              .counts.traversal == TraversalCounts{});
 }
 
 TEST_CASE("any number of threads gives the same picture and the same counts") {
     for (const char* name : {"soup:200", "icosphere:4"}) {
         const Scene scene = make_scene(name, 3);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-        const Rendering one = render(scene, naive, {.width = 33, .height = 25, .samples = 2, .threads = 1});
+        const Rendering one =
+            render(scene, naive, {.width = 33, .height = 25, .samples = 2, .threads = 1});
         for (const unsigned threads : {2u, 3u, 7u}) {
-            const Rendering many = render(scene, naive, {.width = 33, .height = 25, .samples = 2, .threads = threads});
+            const Rendering many =
+                render(scene, naive, {.width = 33, .height = 25, .samples = 2, .threads = threads});
             CHECK(many.image == one.image);
             CHECK(many.counts == one.counts);
         }
@@ -98,8 +105,8 @@ TEST_CASE("four samples per pixel are the mean of a picture twice as large") {
     const Image small = render(scene, naive, {.width = 16, .height = 12, .samples = 2}).image;
     for (int y = 0; y < 12; ++y)
         for (int x = 0; x < 16; ++x) {
-            const Color mean = (large.at(2 * x, 2 * y) + large.at(2 * x + 1, 2 * y) + large.at(2 * x, 2 * y + 1) +
-                                large.at(2 * x + 1, 2 * y + 1)) /
+            const Color mean = (large.at(2 * x, 2 * y) + large.at(2 * x + 1, 2 * y) +
+                                large.at(2 * x, 2 * y + 1) + large.at(2 * x + 1, 2 * y + 1)) /
                                4.0f;
             CHECK(small.at(x, y) == mean);
         }
@@ -115,7 +122,8 @@ TEST_CASE("a convex body throws no shadow on itself") {
         moved.camera.eye.x += shift;
         moved.camera.target.x += shift;
         moved.lights[0].position.x += shift;
-        const Rendering rendering = render(moved, Naive<>::build(moved.mesh.triangles()), {.width = 60, .height = 60});
+        const Rendering rendering =
+            render(moved, Naive<>::build(moved.mesh.triangles()), {.width = 60, .height = 60});
         INFO("moved by " << shift);
         CHECK(rendering.counts.shadow_rays > 200);
         CHECK(rendering.counts.occluded == 0);

@@ -1,8 +1,8 @@
 #include "chapters/ch01_naive_ray_tracing/coordinate_systems.hpp"
 
-#include <numbers>
-
 #include "tests/catch.hpp"
+
+#include <numbers>
 
 using namespace space;
 
@@ -13,13 +13,16 @@ bool close(const Double3& p, const Double3& q) {
     return glm::distance(p, q) < 1e-14;
 }
 
-const Camera straight{.eye = {0.0f, 0.0f, 5.0f}, .target = {0.0f, 0.0f, 0.0f}, .field_of_view = 90.0f};
+const Camera straight{
+    .eye = {0.0f, 0.0f, 5.0f}, .target = {0.0f, 0.0f, 0.0f}, .field_of_view = 90.0f};
 
 }  // namespace
 
 TEST_CASE("local to world scales first, then turns, then moves") {
-    const Map map = local_to_world(
-        {.translation = {10, 20, 30}, .axis = {0, 0, 1}, .angle = std::numbers::pi / 2, .scale = {2, 3, 4}});
+    const Map map = local_to_world({.translation = {10, 20, 30},
+                                    .axis = {0, 0, 1},
+                                    .angle = std::numbers::pi / 2,
+                                    .scale = {2, 3, 4}});
     // (1, 1, 1) -> scaled (2, 3, 4) -> a quarter turn about z (-3, 2, 4) -> moved (7, 22, 34)
     CHECK(glm::distance(map_point(map, {1, 1, 1}), {7, 22, 34}) < 1e-14);
     CHECK(close(map_vector(map, {1, 1, 1}), {-3, 2, 4}));
@@ -34,7 +37,8 @@ TEST_CASE("a mirrored mesh keeps its front sides") {
 }
 
 TEST_CASE("the camera looks along its negative z axis, x to the right and y up") {
-    const Camera camera{.eye = {1, 2, 3}, .target = {-4, 2, 3}, .up = {0, 1, 0}};  // looks along -x: right is -z
+    const Camera camera{
+        .eye = {1, 2, 3}, .target = {-4, 2, 3}, .up = {0, 1, 0}};  // looks along -x: right is -z
     const CameraFrame frame(camera);
     CHECK(close(world_to_camera(camera, frame, {1, 2, 3}), {0, 0, 0}));
     CHECK(close(world_to_camera(camera, frame, {-1, 2, 3}), {0, 0, -2}));
@@ -43,7 +47,8 @@ TEST_CASE("the camera looks along its negative z axis, x to the right and y up")
 }
 
 TEST_CASE("camera to world undoes world to camera") {
-    const Camera camera{.eye = {0.3f, -0.7f, 2.1f}, .target = {0.1f, 0.4f, -0.2f}, .up = {0.2f, 1.0f, 0.1f}};
+    const Camera camera{
+        .eye = {0.3f, -0.7f, 2.1f}, .target = {0.1f, 0.4f, -0.2f}, .up = {0.2f, 1.0f, 0.1f}};
     const CameraFrame frame(camera);
     for (const Double3 p : {Double3(0), Double3(1, 2, 3), Double3(-0.5, 0.25, 0.125)})
         CHECK(close(map_point(camera_to_world(camera), world_to_camera(camera, frame, p)), p));
@@ -69,7 +74,8 @@ TEST_CASE("the ray of a pixel starts at the eye and ends on the plane at distanc
 }
 
 TEST_CASE("a pixel's ray passes through the points that are seen in the pixel") {
-    const Camera camera{.eye = {0.3f, -0.7f, 2.1f}, .target = {0.1f, 0.4f, -0.2f}, .field_of_view = 50.0f};
+    const Camera camera{
+        .eye = {0.3f, -0.7f, 2.1f}, .target = {0.1f, 0.4f, -0.2f}, .field_of_view = 50.0f};
     const CameraFrame frame(camera);
     for (const auto& [x, y] : {std::pair{0.5, 0.5}, {17.25, 3.0}, {63.5, 47.5}, {40.0, 24.0}}) {
         const Ray ray = camera_ray(camera, frame, x, y, 64, 48);

@@ -13,7 +13,8 @@ namespace {
 /// Its image plane at distance 1 reaches from -1 to 1 on both axes: 16 x 16 pixels of 1/8.
 const Camera square_camera{.eye = {0, 0, 0}, .target = {0, 0, -1}, .field_of_view = 90.0f};
 
-DepthBuffer draw(std::initializer_list<Triangle> triangles, int size = 16, const Camera& camera = square_camera) {
+DepthBuffer draw(std::initializer_list<Triangle> triangles, int size = 16,
+                 const Camera& camera = square_camera) {
     Rasteriser rasteriser(camera, size, size);
     std::uint32_t index = 0;
     for (const Triangle& triangle : triangles) rasteriser.draw(triangle, index++);
@@ -21,19 +22,21 @@ DepthBuffer draw(std::initializer_list<Triangle> triangles, int size = 16, const
 }
 
 std::size_t covered(const DepthBuffer& buffer) {
-    return static_cast<std::size_t>(
-        std::count_if(buffer.pixels.begin(), buffer.pixels.end(), [](const Hit& hit) { return hit.t < infinity; }));
+    return static_cast<std::size_t>(std::count_if(buffer.pixels.begin(), buffer.pixels.end(),
+                                                  [](const Hit& hit) { return hit.t < infinity; }));
 }
 
 }  // namespace
 
 TEST_CASE("the pixels of a triangle are those whose centre lies in it, its sides included") {
-    // In pixels: (4, 4), (12, 4), (4, 12): the hypotenuse x + y = 16 passes through centres, which are covered.
+    // In pixels: (4, 4), (12, 4), (4, 12): the hypotenuse x + y = 16 passes through centres, which
+    // are covered.
     const DepthBuffer buffer = draw({{{-0.5f, 0.5f, -1}, {-0.5f, -0.5f, -1}, {0.5f, 0.5f, -1}}});
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
             INFO("pixel " << x << " " << y);
-            CHECK((buffer.at(x, y).t < infinity) == (x >= 4 && y >= 4 && (x + 0.5) + (y + 0.5) <= 16.0));
+            CHECK((buffer.at(x, y).t < infinity) ==
+                  (x >= 4 && y >= 4 && (x + 0.5) + (y + 0.5) <= 16.0));
         }
     CHECK(buffer.at(4, 4).t == 1.0f);
 }
@@ -45,8 +48,8 @@ TEST_CASE("depth and barycentric coordinates are those of the ray through the pi
     int compared = 0;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
-            const auto hit =
-                MollerTrumbore::intersect(camera_ray(square_camera, frame, x + 0.5, y + 0.5, 64, 64), slanted);
+            const auto hit = MollerTrumbore::intersect(
+                camera_ray(square_camera, frame, x + 0.5, y + 0.5, 64, 64), slanted);
             if (!hit || buffer.at(x, y).t == infinity) continue;
             ++compared;
             CHECK(buffer.at(x, y).t == Approx(hit->t).epsilon(1e-6));
@@ -57,7 +60,8 @@ TEST_CASE("depth and barycentric coordinates are those of the ray through the pi
 }
 
 TEST_CASE("the nearest triangle is kept, whatever the order of drawing") {
-    const Triangle near{{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}}, far{{-9, -9, -4}, {9, -9, -4}, {0, 9, -4}};
+    const Triangle near{{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}},
+        far{{-9, -9, -4}, {9, -9, -4}, {0, 9, -4}};
     const DepthBuffer one = draw({near, far}), other = draw({far, near});
     CHECK(one.at(8, 8).triangle == 0);
     CHECK(other.at(8, 8).triangle == 1);
@@ -74,7 +78,8 @@ TEST_CASE("of equal depth the smaller index wins") {
 TEST_CASE("what is behind the eye or in its plane is not drawn") {
     CHECK(covered(draw({{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}})) == 0);
     CHECK(covered(draw({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}})) == 0);
-    CHECK(covered(draw({{{0, -1, -1}, {0, 1, -1}, {0, 0, -4}}})) == 0);  // edge-on: the eye is in its plane
+    CHECK(covered(draw({{{0, -1, -1}, {0, 1, -1}, {0, 0, -4}}})) ==
+          0);  // edge-on: the eye is in its plane
 }
 
 TEST_CASE("a triangle that reaches behind the eye is cut, not turned inside out") {
@@ -82,14 +87,16 @@ TEST_CASE("a triangle that reaches behind the eye is cut, not turned inside out"
     const DepthBuffer buffer = draw({{{-1000, -1, 900}, {1000, -1, 900}, {0, -1, -1e6f}}});
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) CHECK((buffer.at(x, y).t < infinity) == (y >= 8));
-    CHECK(buffer.at(8, 15).t == Approx(16.0 / 15.0));  // seen at 15/16 of the way down the image plane
+    CHECK(buffer.at(8, 15).t ==
+          Approx(16.0 / 15.0));  // seen at 15/16 of the way down the image plane
 }
 
-TEST_CASE("what lies before the near plane is not drawn, though it has a projection within the picture") {
+TEST_CASE(
+    "what lies before the near plane is not drawn, though it has a projection within the picture") {
     constexpr float e = 0x1p-11f;  // half the near plane's depth
     CHECK(covered(draw({{{-e, -e, -e}, {e, -e, -e}, {0, e, -e}}})) == 0);
-    // From the near plane's wrong side at the picture's centre down to its lower corners: the part that the plane cuts
-    // off reaches half the way down.
+    // From the near plane's wrong side at the picture's centre down to its lower corners: the part
+    // that the plane cuts off reaches half the way down.
     const DepthBuffer buffer = draw({{{0, 0, -e}, {-1, -1, -1}, {1, -1, -1}}});
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
@@ -100,7 +107,8 @@ TEST_CASE("what lies before the near plane is not drawn, though it has a project
 }
 
 TEST_CASE("no pixel falls between two triangles with a common edge") {
-    // A fan around the picture's centre whose rim lies outside the picture, with irrational corners.
+    // A fan around the picture's centre whose rim lies outside the picture, with irrational
+    // corners.
     Pcg32 random(5);
     for (int round = 0; round < 20; ++round) {
         Rasteriser rasteriser(square_camera, 61, 61);
@@ -108,10 +116,11 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
         constexpr int corners = 23;
         std::vector<Point3> rim;
         for (int i = 0; i < corners; ++i) {
-            const double angle = 2 * 3.14159265358979323846 * (i + 0.5 * random.uniform_double()) / corners;
+            const double angle =
+                2 * 3.14159265358979323846 * (i + 0.5 * random.uniform_double()) / corners;
             const double depth_of_corner = 1.0 + random.uniform_double();
-            rim.emplace_back(3 * std::cos(angle) * depth_of_corner, 3 * std::sin(angle) * depth_of_corner,
-                             -depth_of_corner);
+            rim.emplace_back(3 * std::cos(angle) * depth_of_corner,
+                             3 * std::sin(angle) * depth_of_corner, -depth_of_corner);
         }
         for (int i = 0; i < corners; ++i) rasteriser.draw({hub, rim[i], rim[(i + 1) % corners]}, i);
         CHECK(covered(rasteriser.buffer()) == 61 * 61);
@@ -129,9 +138,11 @@ TEST_CASE("ray tracer and rasteriser differ only within the stated distance of a
         if (recipe.from_file) continue;  // which need not be there
         const Scene scene = make_scene(recipe.name, 1, true);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-        const Coverage coverage = compare_coverage(scene, trace_depth(scene.camera, naive, width, height, 2),
-                                                   rasterise(scene, width, height));
-        INFO(recipe.name << ": " << coverage.disagree << " pixels disagree, farthest " << coverage.farthest);
+        const Coverage coverage =
+            compare_coverage(scene, trace_depth(scene.camera, naive, width, height, 2),
+                             rasterise(scene, width, height));
+        INFO(recipe.name << ": " << coverage.disagree << " pixels disagree, farthest "
+                         << coverage.farthest);
         CHECK(coverage.covered > 0);
         CHECK(coverage.unexplained == 0);
         CHECK(coverage.farthest <= coverage_distance(scene.camera, width, height));
@@ -144,8 +155,8 @@ TEST_CASE("from inside a soup, with triangles on all sides of the eye, the rende
     Scene scene = make_scene("soup:500", 9);
     scene.camera.eye = bounds(scene.mesh).centroid();
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-    const Coverage coverage =
-        compare_coverage(scene, trace_depth(scene.camera, naive, 120, 90, 2), rasterise(scene, 120, 90));
+    const Coverage coverage = compare_coverage(scene, trace_depth(scene.camera, naive, 120, 90, 2),
+                                               rasterise(scene, 120, 90));
     CHECK(coverage.covered > 1000);
     CHECK(coverage.unexplained == 0);
 }

@@ -1,11 +1,11 @@
 #include "chapters/ch01_naive_ray_tracing/shading.hpp"
 
-#include <numbers>
-
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+
+#include <numbers>
 
 using namespace space;
 
@@ -37,8 +37,8 @@ Triangle horizontal(float z, float size = 1.0f) {
 Color color_at_origin(const Scene& scene) {
     RenderCounts rays;
     NoCounts none;
-    return color_of_ray(scene, Naive<>::build(scene.mesh.triangles()), {.origin = {3, 0, 3}, .direction = {-1, 0, -1}},
-                        rays, none);
+    return color_of_ray(scene, Naive<>::build(scene.mesh.triangles()),
+                        {.origin = {3, 0, 3}, .direction = {-1, 0, -1}}, rays, none);
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ TEST_CASE("Lambert: cosine over pi and squared distance, from a light of intensi
     CHECK(lambert(Color(1.0f), Color(8.0f), n, {0, 0, 2}).x == Approx(2.0 / std::numbers::pi));
     CHECK(lambert(Color(0.5f), Color(8.0f), n, {0, 0, 2}).x == Approx(1.0 / std::numbers::pi));
     // 60 degrees from the normal, distance 2: half of it.
-    CHECK(lambert(Color(1.0f), Color(8.0f), n, {std::sqrt(3.0), 0, 1}).x == Approx(1.0 / std::numbers::pi));
+    CHECK(lambert(Color(1.0f), Color(8.0f), n, {std::sqrt(3.0), 0, 1}).x ==
+          Approx(1.0 / std::numbers::pi));
     CHECK(lambert(Color(1.0f), Color(8.0f), n, {1, 0, 0}) == Color(0.0f));   // along the surface
     CHECK(lambert(Color(1.0f), Color(8.0f), n, {0, 0, -2}) == Color(0.0f));  // from behind
 }
@@ -111,7 +112,8 @@ TEST_CASE("shadow origins never meet their own triangle again, and rounded hit p
             if (i % 10 == 0) triangle.a.x = triangle.b.x = triangle.c.x = 0.0f;
             const Point3 eye = centre + 4.0f * point();
             const float u = 0.5f * random.uniform(), v = 0.5f * random.uniform();
-            const Point3 aim = triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
+            const Point3 aim =
+                triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
             const Ray ray{.origin = eye, .direction = aim - eye};
             const Point3 target = centre + 4.0f * point();
             const auto hit = MollerTrumbore::intersect(ray, triangle);
@@ -125,7 +127,8 @@ TEST_CASE("shadow origins never meet their own triangle again, and rounded hit p
             plain += MollerTrumbore::intersect(shadow_ray(Point3(p), light), triangle).has_value();
             offset += MollerTrumbore::intersect(shadow, triangle).has_value();
         }
-        INFO("distance " << distance << ", shadow rays " << rays << ", meet themselves without the offset " << plain);
+        INFO("distance " << distance << ", shadow rays " << rays
+                         << ", meet themselves without the offset " << plain);
         CHECK(rays > 5'000);
         CHECK(plain > rays / 10);
         CHECK(offset == 0);
@@ -136,5 +139,6 @@ TEST_CASE("a shadow origin lies within a few float steps of the hit point") {
     const Triangle triangle{{100, 200, 300}, {101, 200, 300}, {100, 201, 301}};
     const Double3 p = hit_point(triangle, {.t = 1, .u = 0.25f, .v = 0.25f});
     const Double3 moved{shadow_origin(triangle, p, normal(triangle))};
-    for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(moved[axis] - p[axis]) <= 3 * float_roundoff * 301);
+    for (int axis = 0; axis < 3; ++axis)
+        CHECK(std::abs(moved[axis] - p[axis]) <= 3 * float_roundoff * 301);
 }

@@ -1,16 +1,16 @@
 // Ray-box tests against rational numbers (GMP).
 #include "chapters/ch02_intersection_tests/boxes.hpp"
 
-#include <gmpxx.h>
-
-#include <bit>
-#include <functional>
-#include <glm/gtc/quaternion.hpp>
-
 #include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 #include "chapters/ch02_intersection_tests/oriented_box.hpp"
 #include "tests/catch.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <gmpxx.h>
+
+#include <bit>
+#include <functional>
 
 namespace space::ch02 {
 namespace {
@@ -58,7 +58,8 @@ std::optional<RationalInterval> rational_interval(const Ray& ray, const Aabb& bo
     return part;
 }
 
-/// Whole numbers, by 64-bit integers: o + t d within [0, 2] for some t >= 0, t = n / d for d in {-1, 1}.
+/// Whole numbers, by 64-bit integers: o + t d within [0, 2] for some t >= 0, t = n / d for d in
+/// {-1, 1}.
 bool lattice_hit(const Ray& ray) {
     int enter = 0, leave = 1 << 20;
     for (int axis = 0; axis < 3; ++axis) {
@@ -73,13 +74,15 @@ bool lattice_hit(const Ray& ray) {
 }
 
 float any_float(Pcg32& random, int lowest, int highest) {
-    const int exponent = lowest + static_cast<int>(random.below(static_cast<std::uint32_t>(highest - lowest + 1)));
+    const int exponent =
+        lowest + static_cast<int>(random.below(static_cast<std::uint32_t>(highest - lowest + 1)));
     const float size = std::ldexp(1.0f + random.uniform(), exponent);
     return random.below(2) ? size : -size;
 }
 
-/// Rays at a box's corner, edge, face or inside, with coordinates of size 2^lowest to 2^highest, then made worse:
-/// flat and empty boxes, zeros of either sign, denormal or huge directions, intervals that end at or beside the box.
+/// Rays at a box's corner, edge, face or inside, with coordinates of size 2^lowest to 2^highest,
+/// then made worse: flat and empty boxes, zeros of either sign, denormal or huge directions,
+/// intervals that end at or beside the box.
 RayAndBox hostile_pair(Pcg32& random, int lowest, int highest) {
     RayAndBox pair;
     Ray& ray = pair.ray;
@@ -92,33 +95,38 @@ RayAndBox hostile_pair(Pcg32& random, int lowest, int highest) {
         if (random.below(6) == 0) box.max[axis] = box.min[axis];
         if (random.below(12) == 0) box.min[axis] = box.max[axis] = random.below(2) ? 0.0f : -0.0f;
         const std::uint32_t place = random.below(3);
-        target[axis] = place == 0 ? box.min[axis]
-                       : place == 1
-                           ? box.max[axis]
-                           : std::clamp(0.5f * box.min[axis] + 0.5f * box.max[axis], box.min[axis], box.max[axis]);
+        target[axis] = place == 0   ? box.min[axis]
+                       : place == 1 ? box.max[axis]
+                                    : std::clamp(0.5f * box.min[axis] + 0.5f * box.max[axis],
+                                                 box.min[axis], box.max[axis]);
         ray.origin[axis] = random.below(4) ? any_float(random, lowest, highest) : target[axis];
     }
-    // Of any length down to denormal and up to huge; the rounding of the components makes it miss or hit.
+    // Of any length down to denormal and up to huge; the rounding of the components makes it miss
+    // or hit.
     const double length =
-        std::ldexp(0.5 + random.uniform_double(), static_cast<int>(random.below(3)) * (random.below(2) ? 1 : -60));
+        std::ldexp(0.5 + random.uniform_double(),
+                   static_cast<int>(random.below(3)) * (random.below(2) ? 1 : -60));
     for (int axis = 0; axis < 3; ++axis) {
         const double d = length * (double{target[axis]} - ray.origin[axis]);
         ray.direction[axis] = static_cast<float>(std::clamp(d, -0x1.fp127, 0x1.fp127));
-        if (ray.direction[axis] == 0.0f || random.below(12) == 0) ray.direction[axis] = random.below(2) ? 0.0f : -0.0f;
-        if (random.below(40) == 0) ray.direction[axis] = std::bit_cast<float>(random.below(1u << 23));  // denormal
+        if (ray.direction[axis] == 0.0f || random.below(12) == 0)
+            ray.direction[axis] = random.below(2) ? 0.0f : -0.0f;
+        if (random.below(40) == 0)
+            ray.direction[axis] = std::bit_cast<float>(random.below(1u << 23));  // denormal
     }
     if (random.below(3) == 0) {
-        const float t = static_cast<float>(1.0 / length), ends[] = {0.0f,
-                                                                    -0.0f,
-                                                                    t,
-                                                                    std::nextafter(t, 0.0f),
-                                                                    std::nextafter(t, infinity),
-                                                                    -t,
-                                                                    0.5f * t,
-                                                                    2.0f * t,
-                                                                    -infinity,
-                                                                    infinity,
-                                                                    std::numeric_limits<float>::max()};
+        const float t = static_cast<float>(1.0 / length),
+                    ends[] = {0.0f,
+                              -0.0f,
+                              t,
+                              std::nextafter(t, 0.0f),
+                              std::nextafter(t, infinity),
+                              -t,
+                              0.5f * t,
+                              2.0f * t,
+                              -infinity,
+                              infinity,
+                              std::numeric_limits<float>::max()};
         ray.tmin = ends[random.below(11)];
         ray.tmax = ends[random.below(11)];
         if (ray.tmin > ray.tmax) std::swap(ray.tmin, ray.tmax);
@@ -157,16 +165,20 @@ Misses conservative_misses(int each) {
     Misses count;
     for_hostile_pairs(each, [&](const RayAndBox& pair) {
         if (!valid(pair.ray)) return;
-        const auto exact = pair.box.is_empty() ? std::nullopt : rational_interval(pair.ray, pair.box);
+        const auto exact =
+            pair.box.is_empty() ? std::nullopt : rational_interval(pair.ray, pair.box);
         const auto found = SlabConservative::intersect(pair.ray, pair.box);
         count.exact_hits += exact.has_value();
         count.false_misses += exact && !found;
         count.false_hits += !exact && found;
         if (!exact || !found) return;
         if (std::isnan(found->enter) || std::isnan(found->leave)) ++count.too_late;
-        if (std::isfinite(found->enter)) count.too_late += exact->enter && rational(found->enter) > *exact->enter;
-        if (std::isfinite(found->leave)) count.too_early += !exact->leave || rational(found->leave) < *exact->leave;
-        if (found->enter == infinity) count.too_late += exact->enter && *exact->enter < mpq_class(0x1p127) * 2;
+        if (std::isfinite(found->enter))
+            count.too_late += exact->enter && rational(found->enter) > *exact->enter;
+        if (std::isfinite(found->leave))
+            count.too_early += !exact->leave || rational(found->leave) < *exact->leave;
+        if (found->enter == infinity)
+            count.too_late += exact->enter && *exact->enter < mpq_class(0x1p127) * 2;
         if (found->leave == -infinity) ++count.too_early;
     });
     return count;
@@ -175,7 +187,8 @@ Misses conservative_misses(int each) {
 }  // namespace
 
 TEST_CASE(
-    "on the 7000 lattice rays the safe tests decide exactly, and the plain ones decide wrongly only in the plane of "
+    "on the 7000 lattice rays the safe tests decide exactly, and the plain ones decide wrongly "
+    "only in the plane of "
     "a face") {
     struct Count {
         int misses = 0, hits = 0, elsewhere = 0;
@@ -194,8 +207,8 @@ TEST_CASE(
         hits += expected;
         bool in_face = false;
         for (int axis = 0; axis < 3; ++axis)
-            in_face = in_face ||
-                      (ray.direction[axis] == 0.0f && (ray.origin[axis] == 0.0f || ray.origin[axis] == 2.0f));
+            in_face = in_face || (ray.direction[axis] == 0.0f &&
+                                  (ray.origin[axis] == 0.0f || ray.origin[axis] == 2.0f));
         branching.add(SlabBranching::intersect(ray, box).has_value(), expected);
         min_max.add(SlabMinMax::intersect(ray, box).has_value(), expected, in_face);
         reciprocal.add(SlabReciprocal::intersect(ray, box).has_value(), expected, in_face);
@@ -220,7 +233,8 @@ TEST_CASE(
 TEST_CASE("the exact decision by expansions is that by rational numbers") {
     int pairs = 0, hits = 0, different = 0;
     for_hostile_pairs(pairs_each, [&](const RayAndBox& pair) {
-        const bool expected = valid(pair.ray) && !pair.box.is_empty() && rational_interval(pair.ray, pair.box);
+        const bool expected =
+            valid(pair.ray) && !pair.box.is_empty() && rational_interval(pair.ray, pair.box);
         ++pairs;
         hits += expected;
         different += exactly_hits(pair.ray, pair.box) != expected;
@@ -231,7 +245,9 @@ TEST_CASE("the exact decision by expansions is that by rational numbers") {
     CHECK(different == 0);
 }
 
-TEST_CASE("the conservative test misses no box, and no part of the ray in it, over hostile rays and boxes") {
+TEST_CASE(
+    "the conservative test misses no box, and no part of the ray in it, over hostile rays and "
+    "boxes") {
     const Misses count = conservative_misses(pairs_each);
     CHECK(count.exact_hits > pairs_each / 2);
     CHECK(count.false_misses == 0);
@@ -261,8 +277,10 @@ TEST_CASE("rounding makes the safe test miss a corner that the conservative one 
 TEST_CASE("the printed test rejects every ray from inside the box, the others none") {
     Pcg32 random(303);
     for (int i = 0; i < 1'000; ++i) {
-        const Aabb box{Point3(-1.0f) + 0.5f * random_vector(random), Point3(1.0f) + 0.5f * random_vector(random)};
-        const Ray ray{.origin = 0.49f * random_vector(random), .direction = Vector3(random_direction(random))};
+        const Aabb box{Point3(-1.0f) + 0.5f * random_vector(random),
+                       Point3(1.0f) + 0.5f * random_vector(random)};
+        const Ray ray{.origin = 0.49f * random_vector(random),
+                      .direction = Vector3(random_direction(random))};
         REQUIRE(box.contains(ray.origin));
         REQUIRE_FALSE(SlabAsPrinted::intersect(ray, box));
         REQUIRE(SlabBranching::intersect(ray, box));
@@ -277,7 +295,8 @@ TEST_CASE("the printed test rejects every ray from inside the box, the others no
     CHECK_FALSE(SlabAsPrinted::intersect({{3, 1, 1}, {1, 0.1f, 0.1f}}, box));
 }
 
-TEST_CASE("intervals are closed: a box that begins at tmax or ends at tmin is hit, one beyond is not") {
+TEST_CASE(
+    "intervals are closed: a box that begins at tmax or ends at tmin is hit, one beyond is not") {
     const Aabb box{{2, -1, -1}, {4, 1, 1}};
     const auto with = [](float tmin, float tmax) { return Ray{{0, 0, 0}, {1, 0, 0}, tmin, tmax}; };
     const auto check = [&](auto test) {
@@ -303,7 +322,9 @@ TEST_CASE("a ray within a flat box hits it by the safe tests") {
     CHECK(SlabConservative::intersect(within, flat));
 }
 
-TEST_CASE("a turned box that is not turned, or by right angles, is the axis-aligned box, interval by interval") {
+TEST_CASE(
+    "a turned box that is not turned, or by right angles, is the axis-aligned box, interval by "
+    "interval") {
     Pcg32 random(304);
     int hits = 0;
     for (int i = 0; i < 2'000; ++i) {
@@ -331,15 +352,17 @@ TEST_CASE("a turned box that is not turned, or by right angles, is the axis-alig
 }
 
 TEST_CASE(
-    "a turned box is hit by rays at points clearly inside, missed by rays in a plane clearly beside a face, and the "
+    "a turned box is hit by rays at points clearly inside, missed by rays in a plane clearly "
+    "beside a face, and the "
     "box around it holds it but for roundings") {
     Pcg32 random(305);
     constexpr float clear = 1e-4f;  // hundreds of roundings of numbers up to 10
     for (int i = 0; i < 10'000; ++i) {
         const Double3 first = random_direction(random), second = random_direction(random);
-        const OrientedBox box{random_vector(random),
-                              glm::mat3(glm::mat3_cast(glm::dquat(0.0, first) * glm::dquat(0.0, second))),
-                              0.5f + 0.25f * random_vector(random)};
+        const OrientedBox box{
+            random_vector(random),
+            glm::mat3(glm::mat3_cast(glm::dquat(0.0, first) * glm::dquat(0.0, second))),
+            0.5f + 0.25f * random_vector(random)};
         const auto world = [&](const Vector3& local) { return box.center + box.axes * local; };
         const Point3 inside = world((1.0f - clear) * box.half * random_vector(random));
         const Point3 origin = box.center + 5.0f * Vector3(random_direction(random));
@@ -355,7 +378,8 @@ TEST_CASE(
         // Corners reach the box around it, to within a few roundings.
         const Aabb around = bounds(box);
         for (int corner = 0; corner < 8; ++corner) {
-            const Point3 p = world(box.half * Vector3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+            const Point3 p = world(
+                box.half * Vector3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
             REQUIRE(Aabb{around.min - 1e-6f, around.max + 1e-6f}.contains(p));
         }
     }

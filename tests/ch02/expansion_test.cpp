@@ -1,11 +1,12 @@
-// Expansions against rational numbers (GMP), and the exact decision about spheres that is made of them.
+// Expansions against rational numbers (GMP), and the exact decision about spheres that is made of
+// them.
 #include "chapters/ch02_intersection_tests/expansion.hpp"
-
-#include <gmpxx.h>
 
 #include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 #include "tests/catch.hpp"
+
+#include <gmpxx.h>
 
 namespace space::ch02 {
 namespace {
@@ -23,8 +24,8 @@ mpq_class exact(const Expansion<N>& e) {
     return sum;
 }
 
-/// No zeros, growing, and each part below the last bit of the next: |part| < lowest set bit of its successor, so the
-/// sign is the last one's.
+/// No zeros, growing, and each part below the last bit of the next: |part| < lowest set bit of its
+/// successor, so the sign is the last one's.
 template <std::size_t N>
 bool well_formed(const Expansion<N>& e) {
     if (e.size > N) return false;
@@ -34,7 +35,8 @@ bool well_formed(const Expansion<N>& e) {
         int exponent = 0;
         const double mantissa = std::frexp(e.part[i], &exponent);
         const auto bits = static_cast<std::uint64_t>(std::abs(mantissa) * 0x1p53);
-        if (std::abs(e.part[i - 1]) >= std::ldexp(1.0, exponent - 53 + std::countr_zero(bits))) return false;
+        if (std::abs(e.part[i - 1]) >= std::ldexp(1.0, exponent - 53 + std::countr_zero(bits)))
+            return false;
     }
     return true;
 }
@@ -48,7 +50,8 @@ bool is(const Expansion<N>& e, const mpq_class& expected) {
 /// Mantissas of any number of bits, exponents of a float's range or close together.
 float some_float(Pcg32& random, int spread) {
     const std::uint32_t mantissa = (1u + random.below(1u << 24)) >> random.below(24);
-    const int exponent = static_cast<int>(random.below(static_cast<std::uint32_t>(spread))) - spread / 2;
+    const int exponent =
+        static_cast<int>(random.below(static_cast<std::uint32_t>(spread))) - spread / 2;
     const float size = std::ldexp(static_cast<float>(mantissa), exponent - 24);
     return random.below(2) ? size : -size;
 }
@@ -69,12 +72,14 @@ TEST_CASE("two_sum and two_product lose nothing") {
     }
 }
 
-TEST_CASE("differences, sums and products of expansions are exact, well formed, and have the right sign and value") {
+TEST_CASE(
+    "differences, sums and products of expansions are exact, well formed, and have the right sign "
+    "and value") {
     Pcg32 random(402);
     for (const int spread : {2, 30, 120, 246})
         for (int i = 0; i < rounds / 4; ++i) {
-            const float a = some_float(random, spread), b = some_float(random, spread), c = some_float(random, spread),
-                        d = some_float(random, spread);
+            const float a = some_float(random, spread), b = some_float(random, spread),
+                        c = some_float(random, spread), d = some_float(random, spread);
             const mpq_class ra(a), rb(b), rc(c), rd(d);
             const auto ab = difference(a, b), cd = difference(c, d);
             REQUIRE(is(ab, ra - rb));
@@ -94,8 +99,8 @@ TEST_CASE("differences, sums and products of expansions are exact, well formed, 
 }
 
 TEST_CASE("seven factors at the ends of a float's range neither over- nor underflow") {
-    for (const float x :
-         {0x1p-149f, std::numeric_limits<float>::min() * 1.9999999f, std::numeric_limits<float>::max()}) {
+    for (const float x : {0x1p-149f, std::numeric_limits<float>::min() * 1.9999999f,
+                          std::numeric_limits<float>::max()}) {
         const auto e = difference(x, -x);  // 2 x
         const auto third = e * e * e;
         const mpq_class r = 2 * mpq_class(x);
@@ -111,12 +116,14 @@ TEST_CASE("the exact sphere's quadratic is that of rational numbers, and so is i
         Sphere sphere{random_vector(random), 1.0f};
         Ray ray{.origin = 4.0f * random_vector(random), .direction = random_vector(random)};
         if (i % 4 == 0)
-            ray = {.origin = {1.0f, 0.0f, 5.0f}, .direction = {0.0f, random.uniform() < 0.5f ? 0.0f : 0x1p-60f, -3.0f}},
+            ray = {.origin = {1.0f, 0.0f, 5.0f},
+                   .direction = {0.0f, random.uniform() < 0.5f ? 0.0f : 0x1p-60f, -3.0f}},
             sphere.center = Point3(0.0f);
         const ExactQuadratic q(ray, sphere);
         mpq_class a = 0, b = 0, c = -mpq_class(sphere.radius) * mpq_class(sphere.radius);
         for (int axis = 0; axis < 3; ++axis) {
-            const mpq_class d(ray.direction[axis]), f = mpq_class(ray.origin[axis]) - mpq_class(sphere.center[axis]);
+            const mpq_class d(ray.direction[axis]),
+                f = mpq_class(ray.origin[axis]) - mpq_class(sphere.center[axis]);
             a += d * d;
             b += f * d;
             c += f * f;

@@ -1,13 +1,14 @@
-// The filtered exact test against the exact oracle: hit and miss, t to the last bit, and the ends of the interval.
+// The filtered exact test against the exact oracle: hit and miss, t to the last bit, and the ends
+// of the interval.
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+
+#include "chapters/ch02_intersection_tests/measured/inputs.hpp"
+#include "tests/suite/accelerator_suite.hpp"
 
 #include <array>
 #include <bit>
 #include <cstdio>
 #include <functional>
-
-#include "chapters/ch02_intersection_tests/measured/inputs.hpp"
-#include "tests/suite/accelerator_suite.hpp"
 
 namespace space::ch02 {
 namespace {
@@ -25,13 +26,16 @@ struct Stages {
 };
 
 struct Outcome {
-    std::uint64_t decisions = 0, hits = 0, boundary = 0, disagreements = 0, wrong_t = 0, wrong_uv = 0;
+    std::uint64_t decisions = 0, hits = 0, boundary = 0, disagreements = 0, wrong_t = 0,
+                  wrong_uv = 0;
     Stages stages;
     std::string first;  ///< of the disagreements
 
     std::string text() const {
-        return fmt::format("{} decisions, {} hits, {} at edges or vertices; filter {}, integers {}, expansions {}{}",
-                           decisions, hits, boundary, stages.count[0], stages.count[1], stages.count[2], first);
+        return fmt::format(
+            "{} decisions, {} hits, {} at edges or vertices; filter {}, integers {}, expansions "
+            "{}{}",
+            decisions, hits, boundary, stages.count[0], stages.count[1], stages.count[2], first);
     }
     bool right() const { return disagreements == 0 && wrong_t == 0 && wrong_uv == 0; }
     void operator+=(const Outcome& other) {
@@ -48,7 +52,8 @@ struct Outcome {
 
 std::string words(const RayAndTriangle& pair) {
     std::string text;
-    for (const Vector3& v : {pair.ray.origin, pair.ray.direction, pair.triangle.a, pair.triangle.b, pair.triangle.c})
+    for (const Vector3& v :
+         {pair.ray.origin, pair.ray.direction, pair.triangle.a, pair.triangle.b, pair.triangle.c})
         text += fmt::format(" ({:a}, {:a}, {:a})", v.x, v.y, v.z);
     return text + fmt::format(" in [{:a}, {:a}]", pair.ray.tmin, pair.ray.tmax);
 }
@@ -56,14 +61,17 @@ std::string words(const RayAndTriangle& pair) {
 /// Returns the exact t.
 std::optional<float> compare_one(const RayAndTriangle& pair, Outcome& outcome) {
     const std::vector<ExactHit> exact = ExactOracle::build({&pair.triangle, 1}).hits(pair.ray);
-    const std::optional<Hit> hit = FilteredExact::intersect(pair.ray, pair.triangle, outcome.stages);
+    const std::optional<Hit> hit =
+        FilteredExact::intersect(pair.ray, pair.triangle, outcome.stages);
     ++outcome.decisions;
     outcome.hits += !exact.empty();
     outcome.boundary += !exact.empty() && exact[0].place != Place::interior;
     const auto wrong = [&](std::uint64_t& counter, const char* what) {
-        if (++counter == 1 && outcome.first.empty()) outcome.first = fmt::format("\n  {}:{}", what, words(pair));
+        if (++counter == 1 && outcome.first.empty())
+            outcome.first = fmt::format("\n  {}:{}", what, words(pair));
     };
-    if (hit.has_value() != !exact.empty()) wrong(outcome.disagreements, exact.empty() ? "wrong hit" : "wrong miss");
+    if (hit.has_value() != !exact.empty())
+        wrong(outcome.disagreements, exact.empty() ? "wrong hit" : "wrong miss");
     if (hit && !exact.empty()) {
         if (hit->t != exact[0].t) wrong(outcome.wrong_t, "wrong t");
         if (!(hit->u >= 0.0f && hit->v >= 0.0f && double{hit->u} + hit->v <= 1.0 + 0x1p-23))
@@ -113,12 +121,13 @@ float near_power(Pcg32& random) {
 }
 
 RayAndTriangle all_of(Pcg32& random, float (*component)(Pcg32&)) {
-    const Vector3 o = vector_of(random, component), d = vector_of(random, component), a = vector_of(random, component),
-                  b = vector_of(random, component);
-    return {{.origin = o, .direction = d, .tmin = -infinity, .tmax = infinity}, {a, b, vector_of(random, component)}};
+    const Vector3 o = vector_of(random, component), d = vector_of(random, component),
+                  a = vector_of(random, component), b = vector_of(random, component);
+    return {{.origin = o, .direction = d, .tmin = -infinity, .tmax = infinity},
+            {a, b, vector_of(random, component)}};
 }
-/// The origin lies on the line from a point of the triangle's border backwards by a whole number of directions, all in
-/// numbers of `component`: exactly, as long as nothing is rounded.
+/// The origin lies on the line from a point of the triangle's border backwards by a whole number of
+/// directions, all in numbers of `component`: exactly, as long as nothing is rounded.
 RayAndTriangle at_border(Pcg32& random, float (*component)(Pcg32&)) {
     RayAndTriangle pair = all_of(random, component);
     const Triangle& t = pair.triangle;
@@ -133,7 +142,8 @@ RayAndTriangle edge_on(Pcg32& random) {
     const Double3 ab = Double3(t.b) - Double3(t.a), ac = Double3(t.c) - Double3(t.a);
     const auto in_plane = [&](double u, double v) { return Double3(t.a) + u * ab + v * ac; };
     pair.ray.origin = Point3(in_plane(-random.uniform_double(), 2.0 * random.uniform_double()));
-    pair.ray.direction = Point3(in_plane(random.uniform_double(), random.uniform_double())) - pair.ray.origin;
+    pair.ray.direction =
+        Point3(in_plane(random.uniform_double(), random.uniform_double())) - pair.ray.origin;
     return pair;
 }
 
@@ -144,9 +154,11 @@ struct Kind {
 const std::vector<Kind>& hostile_kinds() {
     static const std::vector<Kind> all{
         {"small whole numbers", [](Pcg32& random) { return all_of(random, small_whole); }},
-        {"small whole numbers, at the border", [](Pcg32& random) { return at_border(random, small_whole); }},
+        {"small whole numbers, at the border",
+         [](Pcg32& random) { return at_border(random, small_whole); }},
         {"any bits", [](Pcg32& random) { return all_of(random, wild); }},
-        {"any bits, at the border", [](Pcg32& random) { return at_border(random, near_power<-8>); }},
+        {"any bits, at the border",
+         [](Pcg32& random) { return at_border(random, near_power<-8>); }},
         {"denormal", [](Pcg32& random) { return at_border(random, near_power<-140>); }},
         {"huge", [](Pcg32& random) { return at_border(random, near_power<108>); }},
         {"within the plane, or nearly", edge_on},
@@ -181,7 +193,8 @@ Outcome all_inputs(int pairs, int first) {
         for (const auto& [scale, shift] : {std::pair{-20, 0}, {20, 0}, {0, 7}}) {
             Pcg32 random(202);
             const TriangleInput input{"", aim, scale, shift};
-            add(fmt::format("aim {}, scaled by 10^{}, shifted by 10^{}", static_cast<int>(aim), scale, shift),
+            add(fmt::format("aim {}, scaled by 10^{}, shifted by 10^{}", static_cast<int>(aim),
+                            scale, shift),
                 [&] { return make_pair(input, random); });
         }
     for (const Kind& kind : hostile_kinds()) {
@@ -195,7 +208,8 @@ Outcome all_inputs(int pairs, int first) {
 }  // namespace
 
 TEST_CASE(
-    "filtered exact decides as exact arithmetic does, with the nearest float t, on every class of input and at every "
+    "filtered exact decides as exact arithmetic does, with the nearest float t, on every class of "
+    "input and at every "
     "end of the interval") {
     const Outcome sum = all_inputs(pairs_each, pairs_each);
     CHECK(sum.hits > sum.decisions / 10);
@@ -204,20 +218,24 @@ TEST_CASE(
     CHECK(sum.stages[Stage::filter] > 0);
     CHECK(sum.stages[Stage::integers] > 0);
     CHECK(sum.stages[Stage::expansions] > 0);
-    CHECK(sum.stages[Stage::filter] + sum.stages[Stage::integers] + sum.stages[Stage::expansions] == sum.decisions);
+    CHECK(sum.stages[Stage::filter] + sum.stages[Stage::integers] + sum.stages[Stage::expansions] ==
+          sum.decisions);
 }
 
 TEST_CASE("filtered exact decides as exact arithmetic does: the full sizes", "[.big]") {
     CHECK(all_inputs(100'000, 1'000'000).right());
 }
 
-TEST_CASE("each stage decides alone where the one before cannot tell, and finds the point that the ray is aimed at") {
+TEST_CASE(
+    "each stage decides alone where the one before cannot tell, and finds the point that the ray "
+    "is aimed at") {
     const Triangle triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     for (const auto& [target, stage] : {std::pair{Point3(1, 1, 0), Stage::filter},
                                         {Point3(2, 0, 0), Stage::integers},
                                         {Point3(0, 0, 0), Stage::integers}}) {
         Stages stages;
-        const auto hit = FilteredExact::intersect({target + Vector3(1, 2, 3), {-1, -2, -3}}, triangle, stages);
+        const auto hit =
+            FilteredExact::intersect({target + Vector3(1, 2, 3), {-1, -2, -3}}, triangle, stages);
         REQUIRE(hit);
         CHECK(hit->t == 1.0f);
         CHECK(hit->u == target.x / 4.0f);
@@ -226,7 +244,8 @@ TEST_CASE("each stage decides alone where the one before cannot tell, and finds 
         CHECK(stages[Stage::filter] + stages[Stage::integers] + stages[Stage::expansions] == 1);
     }
     Stages stages;  // 0x1p-100 beside 4: no integer holds both
-    const auto hit = FilteredExact::intersect({{2, 0x1p-100f, 3}, {0, -0x1p-100f, -3}}, triangle, stages);
+    const auto hit =
+        FilteredExact::intersect({{2, 0x1p-100f, 3}, {0, -0x1p-100f, -3}}, triangle, stages);
     REQUIRE(hit);
     CHECK(hit->t == 1.0f);
     CHECK(hit->u == 0.5f);
@@ -237,9 +256,12 @@ TEST_CASE("each stage decides alone where the one before cannot tell, and finds 
     CHECK(FilteredExact::intersect({{2, 0x1p-149f, 3}, {0, 0, -3}}, triangle));
 }
 
-TEST_CASE("t is the nearest float up to the largest one, and infinity from half a unit in the last place beyond it") {
-    // From z = 2^24 down to about z = 1/2, 2^-104 per unit of t: t is about 2^128 - 2^103, the middle between the
-    // largest float and what would follow it; the plane's tilt makes it differ by 2^-84 of itself.
+TEST_CASE(
+    "t is the nearest float up to the largest one, and infinity from half a unit in the last place "
+    "beyond it") {
+    // From z = 2^24 down to about z = 1/2, 2^-104 per unit of t: t is about 2^128 - 2^103, the
+    // middle between the largest float and what would follow it; the plane's tilt makes it differ
+    // by 2^-84 of itself.
     const auto with_tilt = [](float tilt, float tmax) {
         const Ray ray{{0x1p-36f, 0x1p-36f, 0x1p24f}, {0, 0, -0x1p-104f}, 0.0f, tmax};
         return RayAndTriangle{ray, {{0, 0, 0.5f}, {1, 0, 0.5f + tilt}, {0, 1, 0.5f}}};
@@ -281,13 +303,15 @@ TEST_CASE("a ray that is not valid and a triangle that is not finite are never h
     CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, 2.0f, 0.0f}, triangle));
 }
 
-TEST_CASE("the suite: naive tracing with the filtered exact test, never wrong, with t to the last bit") {
+TEST_CASE(
+    "the suite: naive tracing with the filtered exact test, never wrong, with t to the last bit") {
     SuiteOptions options;
     options.aimed_rays = 300;  // naive tracing with chapter 1's test has its full share
     options.other_rays = 60;
     const SuiteReport report = check_accelerator<Naive<FilteredExact>, FilteredExact>(
         "naive, filtered exact",
-        [](std::span<const Triangle> triangles) { return Naive<FilteredExact>::build(triangles); }, options);
+        [](std::span<const Triangle> triangles) { return Naive<FilteredExact>::build(triangles); },
+        options);
     CHECK(report.exact.examined() > 1'000);
     CHECK(report.exact.wrong() == 0);
     CHECK(report.exact.rounded_t == 0);

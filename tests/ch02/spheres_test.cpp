@@ -16,11 +16,14 @@ constexpr std::size_t schoolbook = 1, stable = 2, in_double = 3;
 
 }  // namespace
 
-TEST_CASE("the printed sphere test hits as many spheres behind the origin as before it, but for chance") {
+TEST_CASE(
+    "the printed sphere test hits as many spheres behind the origin as before it, but for chance") {
     const SpheresBehind found = spheres_behind(rays, 701);
-    const auto before = static_cast<double>(found.exact_hits), behind = static_cast<double>(found.behind);
+    const auto before = static_cast<double>(found.exact_hits),
+               behind = static_cast<double>(found.behind);
     CHECK(before > 0.0);
-    CHECK(std::abs(behind - before) <= 3.0 * std::sqrt(before + behind));  // three standard deviations
+    CHECK(std::abs(behind - before) <=
+          3.0 * std::sqrt(before + behind));  // three standard deviations
     CHECK(found.printed_hits == found.exact_hits + found.behind);
 }
 
@@ -38,7 +41,9 @@ TEST_CASE("a sphere behind the origin is hit by the printed test and by none of 
     }
 }
 
-TEST_CASE("from 3000 radii away the schoolbook's t is off by 0.4 radii, the others' only by its rounding to float") {
+TEST_CASE(
+    "from 3000 radii away the schoolbook's t is off by 0.4 radii, the others' only by its rounding "
+    "to float") {
     const Ray ray{{0.9f, 0, 3000}, {0, 0, -1}};
     const double exact = 3000.0 - std::sqrt(1.0 - double{0.9f} * 0.9f);
     constexpr double half_ulp = 0x1p-13;  // of floats from 2048 to 4096
@@ -48,13 +53,16 @@ TEST_CASE("from 3000 radii away the schoolbook's t is off by 0.4 radii, the othe
 }
 
 TEST_CASE(
-    "far away the stable test decides wrongly at most a thousandth as often as the schoolbook's, and the one in "
+    "far away the stable test decides wrongly at most a thousandth as often as the schoolbook's, "
+    "and the one in "
     "double never") {
     for (const double distance : {300.0, 3e3, 3e4}) {
         const SphereAccuracy found = sphere_accuracy(distance, rays, 702, 2);
-        const auto wrong = [&](std::size_t test) { return found.wrong[test].hits + found.wrong[test].misses; };
-        INFO(distance << " radii: schoolbook " << wrong(schoolbook) << ", stable " << wrong(stable) << ", double "
-                      << wrong(in_double));
+        const auto wrong = [&](std::size_t test) {
+            return found.wrong[test].hits + found.wrong[test].misses;
+        };
+        INFO(distance << " radii: schoolbook " << wrong(schoolbook) << ", stable " << wrong(stable)
+                      << ", double " << wrong(in_double));
         CHECK(wrong(schoolbook) > rays / 500);
         CHECK(1000 * wrong(stable) <= wrong(schoolbook));
         CHECK(wrong(in_double) == 0);
@@ -62,15 +70,17 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a tangent, an origin on the surface or at the centre and an interval with one root or none are decided exactly") {
+    "a tangent, an origin on the surface or at the centre and an interval with one root or none "
+    "are decided exactly") {
     const Sphere unit;
     const auto check = [&](auto test) {
         using Test = decltype(test);
         CHECK(Test::intersect({{1, 0, 5}, {0, 0, -1}}, unit) == 5.0f);  // tangent
         CHECK_FALSE(Test::intersect({{1.001f, 0, 5}, {0, 0, -1}}, unit));
-        CHECK(Test::intersect({{0, 0, 1}, {0, 0, -1}}, unit) == 0.0f);           // on the surface
-        CHECK(Test::intersect({{0, 0, 0}, {0, 0, 2}}, unit) == 0.5f);            // at the centre
-        CHECK(Test::intersect({{0, 0, 3}, {0, 0, -1}, 2.5f, 9}, unit) == 4.0f);  // the far root only
+        CHECK(Test::intersect({{0, 0, 1}, {0, 0, -1}}, unit) == 0.0f);  // on the surface
+        CHECK(Test::intersect({{0, 0, 0}, {0, 0, 2}}, unit) == 0.5f);   // at the centre
+        CHECK(Test::intersect({{0, 0, 3}, {0, 0, -1}, 2.5f, 9}, unit) ==
+              4.0f);  // the far root only
         CHECK_FALSE(Test::intersect({{0, 0, 3}, {0, 0, -1}, 2.5f, 3.5f}, unit));
         CHECK(Test::intersect({{0, 0, 3}, {0, 0, -1}, -infinity, infinity}, unit) == 2.0f);
         CHECK(Test::intersect({{0, 0, 3}, {0, 0, 1}, -infinity, infinity}, unit) == -4.0f);

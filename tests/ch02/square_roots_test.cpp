@@ -1,11 +1,11 @@
 #include "chapters/ch02_intersection_tests/square_roots.hpp"
 
-#include <array>
-#include <map>
-
 #include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+
+#include <array>
+#include <map>
 
 namespace space::ch02 {
 namespace {
@@ -51,13 +51,15 @@ int differing(int fours) {
 }  // namespace
 
 TEST_CASE(
-    "over all floats from 1 to 4 each round of Newton's method has its worst error, and by division the third is the "
+    "over all floats from 1 to 4 each round of Newton's method has its worst error, and by "
+    "division the third is the "
     "last that helps") {
     // In units in the last place.
     const std::map<std::string, double> worst{
-        {"Newton 0", 408'333},  {"Newton 1", 6'795},       {"Newton 2", 2.694},      {"Newton 3", 0.75},
-        {"Newton 4", 0.75},     {"reciprocal 0", 566'817}, {"reciprocal 1", 28'403}, {"reciprocal 2", 77.1},
-        {"reciprocal 3", 2.51}, {"reciprocal 4", 1.74},    {"library", 0.5}};
+        {"Newton 0", 408'333},    {"Newton 1", 6'795},    {"Newton 2", 2.694},
+        {"Newton 3", 0.75},       {"Newton 4", 0.75},     {"reciprocal 0", 566'817},
+        {"reciprocal 1", 28'403}, {"reciprocal 2", 77.1}, {"reciprocal 3", 2.51},
+        {"reciprocal 4", 1.74},   {"library", 0.5}};
     int looked_at = 0;
     for (const RootForm& form : root_forms()) {
         const RootAccuracy found = root_accuracy(form, stride, 100);
@@ -69,8 +71,8 @@ TEST_CASE(
             if (stride == 1) CHECK(found.worst_binades >= 0.98 * expected->second);
             // From binade to binade errors repeat, so no sample exceeds them.
             CHECK(found.worst_normal <= 1.005 * expected->second);
-        } else {  // the processor's: its maker promises 1.5 * 2^-12, of which a round makes 3.4 * 2^-24, and some
-                  // roundings
+        } else {  // the processor's: its maker promises 1.5 * 2^-12, of which a round makes 3.4 *
+                  // 2^-24, and some roundings
             CHECK(found.worst_binades <= (form.rounds == 0 ? 0x1p24 * 1.5 * 0x1p-12 : 7.0));
         }
         if (form.name == "Newton 3" && stride == 1) CHECK(found.correctly_rounded > 0.74);
@@ -79,7 +81,9 @@ TEST_CASE(
     CHECK(looked_at == 11);
 }
 
-TEST_CASE("four roots at a time, by arrays, vector types or std::experimental::simd, are bit for bit the scalar ones") {
+TEST_CASE(
+    "four roots at a time, by arrays, vector types or std::experimental::simd, are bit for bit the "
+    "scalar ones") {
     constexpr int fours = 20'000;
     CHECK(differing<0>(fours) == 0);
     CHECK(differing<1>(fours) == 0);
@@ -88,15 +92,19 @@ TEST_CASE("four roots at a time, by arrays, vector types or std::experimental::s
     CHECK(differing<4>(fours) == 0);
 }
 
-TEST_CASE("the careful root gives zeros, infinity, NaN and negative numbers the answers of IEEE 754") {
+TEST_CASE(
+    "the careful root gives zeros, infinity, NaN and negative numbers the answers of IEEE 754") {
     CHECK(bits(careful_newton_root<3>(0.0f)) == bits(0.0f));
     CHECK(bits(careful_newton_root<3>(-0.0f)) == bits(-0.0f));
     CHECK(careful_newton_root<3>(infinity) == infinity);
-    for (const float bad : {nan, -nan, -1.0f, -smallest, -infinity, std::numeric_limits<float>::lowest()})
+    for (const float bad :
+         {nan, -nan, -1.0f, -smallest, -infinity, std::numeric_limits<float>::lowest()})
         CHECK(std::isnan(careful_newton_root<3>(bad)));
 }
 
-TEST_CASE("the careful root is within one unit in the last place for denormals too, where the plain one is not") {
+TEST_CASE(
+    "the careful root is within one unit in the last place for denormals too, where the plain one "
+    "is not") {
     Pcg32 random(502);
     double careful = 0.0;
     int plain_wrong = 0, samples = 0;

@@ -1,9 +1,9 @@
 // What the plain ray-triangle tests lose, and the cures keep. Filtered exact is the truth here.
-#include <numbers>
-
 #include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 #include "tests/catch.hpp"
+
+#include <numbers>
 
 namespace space::ch02 {
 namespace {
@@ -33,15 +33,17 @@ int hits(const Ray& ray, std::span<const Triangle> triangles) {
 }
 
 /// T1: two triangles with the edge ac, and a ray at it.
-const Triangle quad[] = {{{-1.0625f, -1.125f, -0.125f}, {0.75f, -0.875f, 0.0625f}, {1.1875f, 1.0625f, 0.0f}},
-                         {{-1.0625f, -1.125f, -0.125f}, {1.1875f, 1.0625f, 0.0f}, {-1.0625f, 0.8125f, -0.125f}}};
+const Triangle quad[] = {
+    {{-1.0625f, -1.125f, -0.125f}, {0.75f, -0.875f, 0.0625f}, {1.1875f, 1.0625f, 0.0f}},
+    {{-1.0625f, -1.125f, -0.125f}, {1.1875f, 1.0625f, 0.0f}, {-1.0625f, 0.8125f, -0.125f}}};
 const Ray at_edge{{3, 2, 5}, {-2.26249981f, -1.375f, -5.0250001f}};
 
 std::vector<Triangle> fan() {
     const Point3 hub(0.1f, 0.2f, 0.3f);
     const auto rim = [&](int k) {
         const double angle = k * std::numbers::pi / 3.0;
-        return Point3(static_cast<float>(0.1f + std::cos(angle)), static_cast<float>(0.2f + std::sin(angle)), 0.3f);
+        return Point3(static_cast<float>(0.1f + std::cos(angle)),
+                      static_cast<float>(0.2f + std::sin(angle)), 0.3f);
     };
     std::vector<Triangle> triangles;
     for (int k = 0; k < 6; ++k)  // with the hub in each place of the vertex order
@@ -53,7 +55,9 @@ std::vector<Triangle> fan() {
 
 }  // namespace
 
-TEST_CASE("at a shared edge Möller-Trumbore in float hits neither triangle, the watertight and the exact tests one") {
+TEST_CASE(
+    "at a shared edge Möller-Trumbore in float hits neither triangle, the watertight and the exact "
+    "tests one") {
     CHECK(hits<MollerTrumboreFloat>(at_edge, quad) == 0);
     CHECK(hits<Watertight>(at_edge, quad) == 1);
     CHECK(hits<Plucker>(at_edge, quad) == 1);
@@ -61,7 +65,9 @@ TEST_CASE("at a shared edge Möller-Trumbore in float hits neither triangle, the
     CHECK(FilteredExact::intersect(at_edge, quad[0]));
 }
 
-TEST_CASE("at a shared vertex plain tests lose rays between six triangles, the watertight and the exact ones none") {
+TEST_CASE(
+    "at a shared vertex plain tests lose rays between six triangles, the watertight and the exact "
+    "ones none") {
     const std::vector<Triangle> triangles = fan();
     Pcg32 random(608);
     int plain = 0, watertight = 0, exact = 0, edges = 0;
@@ -97,7 +103,8 @@ TEST_CASE("an absolute epsilon misses small triangles, the sign of the determina
 }
 
 TEST_CASE(
-    "no ray leaks through a closed mesh with the watertight or the exact test; with Plücker's at most a fifth as "
+    "no ray leaks through a closed mesh with the watertight or the exact test; with Plücker's at "
+    "most a fifth as "
     "many do as with any plain one in float") {
     for (const int shift : {0, 3}) {
         const Leaks leaks = closed_mesh_leaks(2, shift, leak_rays, 601, 2);
@@ -114,18 +121,23 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "signed volumes and watertight edge functions see a shared edge alike from both its triangles: a ray beside both "
+    "signed volumes and watertight edge functions see a shared edge alike from both its triangles: "
+    "a ray beside both "
     "is beside none") {
-    // Two triangles on an edge pq, r and s on either side of it in the plane through pq that faces the ray: a ray that
-    // crosses the edge's line between p and q hits at least one of them, whatever rounding says of the side.
+    // Two triangles on an edge pq, r and s on either side of it in the plane through pq that faces
+    // the ray: a ray that crosses the edge's line between p and q hits at least one of them,
+    // whatever rounding says of the side.
     Pcg32 random(602);
     int watertight_leaks = 0, plucker_leaks = 0, plain_leaks = 0;
     for (int i = 0; i < pairs_each; ++i) {
-        const auto about = [&](float x, float y) { return Point3(x, y, 0.0f) + 0.25f * random_vector(random); };
+        const auto about = [&](float x, float y) {
+            return Point3(x, y, 0.0f) + 0.25f * random_vector(random);
+        };
         const Point3 p = about(-1, -1), q = about(1, 1), r = about(1, -1), s = about(-1, 1);
         const Triangle pair[] = {{p, r, q}, {p, q, s}};
         const Point3 origin = Point3(0, 0, 5) + 2.0f * random_vector(random);
-        const Double3 target = Double3(p) + (0.05 + 0.9 * random.uniform_double()) * (Double3(q) - Double3(p));
+        const Double3 target =
+            Double3(p) + (0.05 + 0.9 * random.uniform_double()) * (Double3(q) - Double3(p));
         const Ray ray{origin, Point3(target) - origin};
         watertight_leaks += hits<Watertight>(ray, pair) == 0;
         plucker_leaks += hits<Plucker>(ray, pair) == 0;
@@ -136,38 +148,44 @@ TEST_CASE(
     CHECK(plain_leaks > pairs_each / 50);
 }
 
-TEST_CASE("the order of a triangle's vertices does not matter to Plücker's, the watertight and the exact decision") {
+TEST_CASE(
+    "the order of a triangle's vertices does not matter to Plücker's, the watertight and the exact "
+    "decision") {
     Pcg32 random(603);
     int different = 0;
     for (int i = 0; i < pairs_each; ++i) {
         const auto [ray, triangle] = make_pair({"", i % 2 ? Aim::edge : Aim::vertex}, random);
         const auto& [a, b, c] = triangle;
-        for (const Triangle& turned :
-             {Triangle{b, c, a}, Triangle{c, a, b}, Triangle{a, c, b}, Triangle{c, b, a}, Triangle{b, a, c}}) {
+        for (const Triangle& turned : {Triangle{b, c, a}, Triangle{c, a, b}, Triangle{a, c, b},
+                                       Triangle{c, b, a}, Triangle{b, a, c}}) {
             // Only the decision about the line: t is rounded in another order.
             const Ray line{ray.origin, ray.direction, -infinity, infinity};
-            different +=
-                Watertight::intersect(line, triangle).has_value() != Watertight::intersect(line, turned).has_value();
+            different += Watertight::intersect(line, triangle).has_value() !=
+                         Watertight::intersect(line, turned).has_value();
             different += FilteredExact::intersect(line, triangle).has_value() !=
                          FilteredExact::intersect(line, turned).has_value();
-            different += Plucker::intersect(line, triangle).has_value() != Plucker::intersect(line, turned).has_value();
+            different += Plucker::intersect(line, triangle).has_value() !=
+                         Plucker::intersect(line, turned).has_value();
         }
     }
     CHECK(different == 0);
 }
 
-TEST_CASE("all tests agree on rays clearly inside or outside, and t, u and v are near the exact ones") {
+TEST_CASE(
+    "all tests agree on rays clearly inside or outside, and t, u and v are near the exact ones") {
     Pcg32 random(604);
     int inside = 0, outside = 0;
     for (int i = 0; i < pairs_each / 10; ++i) {
         const auto [ray, triangle] = make_pair(triangle_inputs()[0], random);
         // A whole number of triangle sizes: seen at more than a few degrees and not thin.
         const Double3 n = normal(triangle);
-        if (glm::length(n) < 0.5 || std::abs(glm::dot(glm::normalize(n), glm::normalize(Double3(ray.direction)))) < 0.1)
+        if (glm::length(n) < 0.5 ||
+            std::abs(glm::dot(glm::normalize(n), glm::normalize(Double3(ray.direction)))) < 0.1)
             continue;
         const auto middle = (triangle.a + triangle.b + triangle.c) / 3.0f;
         const auto resized = [&](float factor) {
-            return Triangle{middle + factor * (triangle.a - middle), middle + factor * (triangle.b - middle),
+            return Triangle{middle + factor * (triangle.a - middle),
+                            middle + factor * (triangle.b - middle),
                             middle + factor * (triangle.c - middle)};
         };
         const bool smaller = FilteredExact::intersect(ray, resized(0.999f)).has_value(),
@@ -191,15 +209,18 @@ TEST_CASE("all tests agree on rays clearly inside or outside, and t, u and v are
 }
 
 TEST_CASE(
-    "an offset origin neither hits its triangle again nor leaks, near and far from the world's origin; without it "
+    "an offset origin neither hits its triangle again nor leaks, near and far from the world's "
+    "origin; without it "
     "three in four hit it again") {
     const OriginWay &plain = origin_ways().front(), &offset = origin_ways().back();
     for (const double place : {0.0, 1e3, 1e5}) {
         INFO("room at " << place);
-        const Bounces none = bounces(plain, index_of<FilteredExact>(), place, bounce_count / 10, 605, 2);
+        const Bounces none =
+            bounces(plain, index_of<FilteredExact>(), place, bounce_count / 10, 605, 2);
         CHECK(4 * none.self_hits > 3 * none.bounces);
         CHECK(none.bounces == bounce_count / 10);
-        const Bounces moved = bounces(offset, index_of<FilteredExact>(), place, bounce_count, 605, 2);
+        const Bounces moved =
+            bounces(offset, index_of<FilteredExact>(), place, bounce_count, 605, 2);
         CHECK(moved.bounces == bounce_count);
         CHECK(moved.self_hits == 0);
         CHECK(moved.leaks == 0);
@@ -208,7 +229,8 @@ TEST_CASE(
 
 TEST_CASE("no leak over 10^6 bounces and 10^6 rays: the full sizes", "[.big]") {
     for (const double place : {0.0, 1e3, 1e5}) {
-        const Bounces moved = bounces(origin_ways().back(), index_of<FilteredExact>(), place, 1'000'000, 606, 2);
+        const Bounces moved =
+            bounces(origin_ways().back(), index_of<FilteredExact>(), place, 1'000'000, 606, 2);
         CHECK(moved.self_hits == 0);
         CHECK(moved.leaks == 0);
     }

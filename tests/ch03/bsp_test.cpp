@@ -1,11 +1,11 @@
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 
-#include <algorithm>
-#include <string>
-
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "common/scene.hpp"
 #include "tests/suite/accelerator_suite.hpp"
+
+#include <algorithm>
+#include <string>
 
 using namespace space;
 
@@ -16,9 +16,12 @@ struct Sets {
     std::string splitters, cuts;
     std::vector<std::string> front, back;  ///< of each splitter
 
-    static char name(std::uint32_t polygon) { return static_cast<char>('A' + static_cast<int>(polygon)); }
+    static char name(std::uint32_t polygon) {
+        return static_cast<char>('A' + static_cast<int>(polygon));
+    }
     template <int D>
-    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t, std::int32_t, bool) {
+    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t,
+                std::int32_t, bool) {
         splitters += name(*polygon);
         front.emplace_back();
         back.emplace_back();
@@ -36,7 +39,9 @@ struct Sets {
 
 std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) {
     Pcg32 random(seed);
-    const auto point = [&](float s) { return Point3(random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s)); };
+    const auto point = [&](float s) {
+        return Point3(random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s));
+    };
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Point3 centre = point(1.0f);
@@ -50,15 +55,18 @@ std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) 
 TEST_CASE("the splitters G, E, B, A give the sets and the tree that Heinonen16 prints") {
     const std::vector<Corners<2>> segments = corners(heinonen_segments());
     const std::uint32_t order[] = {6, 4, 1, 0};
-    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
+    for (const Grade grade :
+         {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
         Sets sets;
-        const BspTree<2> tree =
-            BspBuilder<2, Sets&>::build(segments, {.splitter = SplitterChoice::first, .grade = grade, .order = order}, sets);
+        const BspTree<2> tree = BspBuilder<2, Sets&>::build(
+            segments, {.splitter = SplitterChoice::first, .grade = grade, .order = order}, sets);
         CHECK(sets.splitters.front() == 'G');
         CHECK(sets.front[0] == "ABC");
         CHECK(sets.back[0] == "DEF");
         CHECK(sets.cuts == "C");
-        const auto of = [&](char name) { return static_cast<std::size_t>(sets.splitters.find(name)); };
+        const auto of = [&](char name) {
+            return static_cast<std::size_t>(sets.splitters.find(name));
+        };
         CHECK(sets.front[of('E')] + sets.back[of('E')] == "DF");
         CHECK(sets.front[of('B')] == "AC");
         CHECK(sets.back[of('B')] == "C");
@@ -72,14 +80,17 @@ TEST_CASE("the suite: BSP tree") {
 }
 
 TEST_CASE("the suite: BSP tree with free planes, over the exact test") {
-    const SuiteReport report = check_accelerator<Bsp<FilteredExact>, FilteredExact>("bsp, free planes, exact test", [](std::span<const Triangle> t) {
-        return Bsp<FilteredExact>::build(t, {.splitter = SplitterChoice::free});
-    });
+    const SuiteReport report = check_accelerator<Bsp<FilteredExact>, FilteredExact>(
+        "bsp, free planes, exact test", [](std::span<const Triangle> t) {
+            return Bsp<FilteredExact>::build(t, {.splitter = SplitterChoice::free});
+        });
     CHECK(report.exact.wrong() == 0);
     CHECK(report.exact.beyond_bound == 0);
 }
 
-TEST_CASE("the suite: BSP tree whose subtrees share what straddles, where it doesn't double with every plane") {
+TEST_CASE(
+    "the suite: BSP tree whose subtrees share what straddles, where it doesn't double with every "
+    "plane") {
     // Where every polygon crosses every plane there are 2^n references: no scene for sharing.
     const auto build = [](std::span<const Triangle> t) {
         return Bsp<>::build(t, {.straddlers = Straddlers::share, .max_fragments = 30'000});
@@ -104,18 +115,24 @@ TEST_CASE("the suite: BSP tree whose subtrees share what straddles, where it doe
 TEST_CASE("every grade and choice of splitters gives the naive loop's hits on random triangles") {
     const std::vector<Triangle> triangles = soup(60, 0.6f, 5);
     const auto naive = Naive<FilteredExact>::build(triangles);
-    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})
-        for (const SplitterChoice splitter : {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced,
-                                              SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free})
+    for (const Grade grade :
+         {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})
+        for (const SplitterChoice splitter :
+             {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced,
+              SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free})
             for (const Straddlers straddlers : {Straddlers::split, Straddlers::share}) {
-                const auto bsp = Bsp<FilteredExact>::build(
-                    triangles, {.splitter = splitter, .straddlers = straddlers, .grade = grade, .max_fragments = 200'000});
+                const auto bsp = Bsp<FilteredExact>::build(triangles, {.splitter = splitter,
+                                                                       .straddlers = straddlers,
+                                                                       .grade = grade,
+                                                                       .max_fragments = 200'000});
                 Pcg32 random(9);
                 int wrong = 0;
                 for (int i = 0; i < 200; ++i) {
-                    const Point3 origin(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
+                    const Point3 origin(random.uniform(-3, 3), random.uniform(-3, 3),
+                                        random.uniform(-3, 3));
                     const Triangle& aim = triangles[random.below(60)];
-                    const Ray ray{origin, (i % 2 ? aim.a : (aim.a + aim.b + aim.c) / 3.0f) - origin};
+                    const Ray ray{origin,
+                                  (i % 2 ? aim.a : (aim.a + aim.b + aim.c) / 3.0f) - origin};
                     wrong += closest_hit(bsp, ray) != closest_hit(naive, ray);
                 }
                 CHECK(wrong == 0);
@@ -128,14 +145,17 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
     const auto naive = Naive<FilteredExact>::build(triangles);
     const auto wrong_rays = [&](Grade grade) {
         const auto bsp = Bsp<FilteredExact>::build(
-            triangles, {.splitter = SplitterChoice::random, .grade = grade, .thickness_in_roundings = 1000.0});
+            triangles,
+            {.splitter = SplitterChoice::random, .grade = grade, .thickness_in_roundings = 1000.0});
         Pcg32 random(3);
         int wrong = 0;
         for (int i = 0; i < 10'000; ++i) {  // at points of cuts and edges
             const auto& fragments = bsp.tree().fragments;
-            const Fragment<3>& fragment = fragments[random.below(static_cast<std::uint32_t>(fragments.size()))];
+            const Fragment<3>& fragment =
+                fragments[random.below(static_cast<std::uint32_t>(fragments.size()))];
             const auto corner = random.below(static_cast<std::uint32_t>(fragment.corners.size()));
-            const Double3 p = fragment.corners[corner].at, q = fragment.corners[(corner + 1) % fragment.corners.size()].at;
+            const Double3 p = fragment.corners[corner].at,
+                          q = fragment.corners[(corner + 1) % fragment.corners.size()].at;
             const Point3 aim(p + random.uniform_double() * (q - p));
             const Vector3 back(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
             const Ray ray{aim + back, -back};
@@ -151,9 +171,13 @@ TEST_CASE("a tree that would have more fragments than allowed is refused with on
     CHECK_THROWS_AS(Bsp<>::build(soup(100, 1.0f, 6), {.max_fragments = 200}), Error);
 }
 
-TEST_CASE("a build that would take more placements than allowed is refused with one line, and free planes need fewer") {
-    const std::vector<Triangle> sphere = make_scene("icosphere:6").mesh.triangles();  // 720 of them: a chain
+TEST_CASE(
+    "a build that would take more placements than allowed is refused with one line, and free "
+    "planes need fewer") {
+    const std::vector<Triangle> sphere =
+        make_scene("icosphere:6").mesh.triangles();  // 720 of them: a chain
     CHECK_NOTHROW(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2}));
     CHECK_THROWS_AS(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2 - 1}), Error);
-    CHECK_NOTHROW(Bsp<>::build(sphere, {.splitter = SplitterChoice::free, .max_placed = 720 * 721 / 10}));
+    CHECK_NOTHROW(
+        Bsp<>::build(sphere, {.splitter = SplitterChoice::free, .max_placed = 720 * 721 / 10}));
 }

@@ -1,11 +1,12 @@
-// Where BSP trees fail: of each failure a test in which the plain method fails, by how much, and the cure holds.
-#include <fmt/format.h>
-
+// Where BSP trees fail: of each failure a test in which the plain method fails, by how much, and
+// the cure holds.
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
 #include "tests/ch03/gallery.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
+
+#include <fmt/format.h>
 
 namespace space {
 namespace {
@@ -19,10 +20,13 @@ constexpr int points = 200'000, rays = 200'000;
 constexpr std::uint32_t sizes[] = {100, 200, 400};
 constexpr std::uint32_t rows = 24;
 #endif
-constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact};
+constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double,
+                            Grade::exact};
 
-/// Every polygon cut by every plane, one after the other, without a tree; of the polygons only every `every`-th.
-std::vector<Fragment<3>> cut_by_all(const std::vector<Corners<3>>& polygons, const std::vector<SplitPlane<3>>& planes, Grade grade,
+/// Every polygon cut by every plane, one after the other, without a tree; of the polygons only
+/// every `every`-th.
+std::vector<Fragment<3>> cut_by_all(const std::vector<Corners<3>>& polygons,
+                                    const std::vector<SplitPlane<3>>& planes, Grade grade,
                                     double thickness, std::uint32_t every = 1) {
     const Splitter<3> splitter(polygons, planes, grade, thickness);
     std::vector<Fragment<3>> all;
@@ -39,11 +43,13 @@ std::vector<Fragment<3>> cut_by_all(const std::vector<Corners<3>>& polygons, con
                 }
                 auto [front, back] = splitter.split(piece, sides, plane);
                 for (Fragment<3>* half : {&front, &back})
-                    if (grade == Grade::exact || Splitter<3>::has_extent(*half)) finer.push_back(std::move(*half));
+                    if (grade == Grade::exact || Splitter<3>::has_extent(*half))
+                        finer.push_back(std::move(*half));
             }
             pieces = std::move(finer);
         }
-        all.insert(all.end(), std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
+        all.insert(all.end(), std::make_move_iterator(pieces.begin()),
+                   std::make_move_iterator(pieces.end()));
     }
     return all;
 }
@@ -52,22 +58,29 @@ std::vector<SplitPlane<3>> random_planes(int count, std::uint64_t seed) {
     Pcg32 random(seed);
     std::vector<SplitPlane<3>> planes;
     for (int i = 0; i < count; ++i) {
-        const Point3 a = scenes::random_point(random, -0.5f, 0.5f), b = scenes::random_point(random, -1, 1);
+        const Point3 a = scenes::random_point(random, -0.5f, 0.5f),
+                     b = scenes::random_point(random, -1, 1);
         planes.emplace_back(Corners<3>{a, b, scenes::random_point(random, -1, 1)});
     }
     return planes;
 }
 
-constexpr double float_thickness(double largest) { return 8.0 * 0x1p-24 * largest; }
+constexpr double float_thickness(double largest) {
+    return 8.0 * 0x1p-24 * largest;
+}
 
 }  // namespace
 
-TEST_CASE("P1: near a plane the sign of its float equation is a coin toss; thick planes and exact signs are not wrong") {
+TEST_CASE(
+    "P1: near a plane the sign of its float equation is a coin toss; thick planes and exact signs "
+    "are not wrong") {
     Pcg32 random(1);
     const std::vector<Corners<3>> none;
     int plain_wrong = 0, thick_wrong = 0, thick_on = 0, exact_wrong = 0, far = 0, filtered = 0;
     for (int i = 0; i < points; ++i) {
-        const Point3 a = scenes::random_point(random, -1, 1), b = scenes::random_point(random, -1, 1), c = scenes::random_point(random, -1, 1);
+        const Point3 a = scenes::random_point(random, -1, 1),
+                     b = scenes::random_point(random, -1, 1),
+                     c = scenes::random_point(random, -1, 1);
         const std::vector<SplitPlane<3>> planes{SplitPlane<3>({a, b, c})};
         const float u = random.uniform(), v = random.uniform();
         const Fragment<3> fragment = whole_polygon<3>({a + u * (b - a) + v * (c - a), a, b}, 0);
@@ -76,19 +89,24 @@ TEST_CASE("P1: near a plane the sign of its float equation is a coin toss; thick
             Splitter<3>(none, planes, grade, thickness).classify(fragment, 0, sides);
             return sides[0];
         };
-        const int expected = cgal_side(planes[0].through, fragment.corners[0].at), thick = side(Grade::ordered_float, float_thickness(2.0));
+        const int expected = cgal_side(planes[0].through, fragment.corners[0].at),
+                  thick = side(Grade::ordered_float, float_thickness(2.0));
         const bool plain = side(Grade::thick_float, 0.0) == expected;
         plain_wrong += !plain;
-        far += !plain && std::abs(planes[0].distance(fragment.corners[0].at)) / planes[0].length > 1e-6;
+        far += !plain &&
+               std::abs(planes[0].distance(fragment.corners[0].at)) / planes[0].length > 1e-6;
         thick_wrong += thick != 0 && thick != expected;
         thick_on += thick == 0;
         exact_wrong += side(Grade::exact, 0.0) != expected;
         filtered += side_filter(planes[0], fragment.corners[0].at, 0.0).has_value();
     }
     const auto percent = [](int count) { return 100.0 * count / points; };
-    fmt::print("  P1: of {} points on planes rounded to float the plain sign is wrong for {:.1f} % ({} farther off than 1e-6); "
-               "a thick plane has {:.1f} % on it and {} wrong; exact: {} wrong, {:.1f} % by the filter\n",
-               with_commas(points), percent(plain_wrong), far, percent(thick_on), thick_wrong, exact_wrong, percent(filtered));
+    fmt::print(
+        "  P1: of {} points on planes rounded to float the plain sign is wrong for {:.1f} % ({} "
+        "farther off than 1e-6); "
+        "a thick plane has {:.1f} % on it and {} wrong; exact: {} wrong, {:.1f} % by the filter\n",
+        with_commas(points), percent(plain_wrong), far, percent(thick_on), thick_wrong, exact_wrong,
+        percent(filtered));
     CHECK(plain_wrong > points / 3);
     CHECK(far < points / 1000);
     CHECK(thick_wrong == 0);
@@ -96,22 +114,28 @@ TEST_CASE("P1: near a plane the sign of its float equation is a coin toss; thick
     CHECK(exact_wrong == 0);
 }
 
-TEST_CASE("P2: a plane without thickness cuts by noise, thick planes are not transitive; exact planes need no thickness") {
+TEST_CASE(
+    "P2: a plane without thickness cuts by noise, thick planes are not transitive; exact planes "
+    "need no thickness") {
     const double eps = 0x1p-20;
     const std::vector<SplitPlane<3>> ground{SplitPlane<3>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})};
-    // Corners at +eps/2 and -2 eps: noise of the plane says across, and a piece of next to nothing comes off.
+    // Corners at +eps/2 and -2 eps: noise of the plane says across, and a piece of next to nothing
+    // comes off.
     const std::vector<Corners<3>> noisy{{{{0, 0, 0x1p-21f}, {1, 0, -0x1p-19f}, {0, 1, -0x1p-19f}}}};
     const auto place = [&](double thickness) {
         std::vector<int> sides;
-        Splitter<3>(noisy, ground, Grade::ordered_float, thickness).classify(whole_polygon<3>(noisy[0], 0), 0, sides);
+        Splitter<3>(noisy, ground, Grade::ordered_float, thickness)
+            .classify(whole_polygon<3>(noisy[0], 0), 0, sides);
         return Splitter<3>::place(sides);
     };
     CHECK(place(0.0) == Side::across);
     CHECK(place(eps) == Side::back);
 
-    // Three planes 3/4 of a thickness apart: each is on the next, the first is not on the last. Which comes first decides.
+    // Three planes 3/4 of a thickness apart: each is on the next, the first is not on the last.
+    // Which comes first decides.
     const auto level = [](float z) { return Corners<3>{{{0, 0, z}, {1, 0, z}, {0, 1, z}}}; };
-    const std::vector<Corners<3>> three{level(1.0f), level(1.0f + 3 * 0x1p-23f), level(1.0f + 6 * 0x1p-23f)};
+    const std::vector<Corners<3>> three{level(1.0f), level(1.0f + 3 * 0x1p-23f),
+                                        level(1.0f + 6 * 0x1p-23f)};
     const auto nodes = [&](Grade grade, std::uint32_t first) {
         const std::uint32_t order[] = {first};
         return BspBuilder<3>::build(three, {.grade = grade, .order = order}).nodes.size();
@@ -125,7 +149,8 @@ TEST_CASE("P2: a plane without thickness cuts by noise, thick planes are not tra
     std::vector<SplitPlane<3>> planes;
     Pcg32 random(3);
     for (int i = 0; i < 14; ++i) {
-        const Point3 a(random.uniform(1, 5), random.uniform(1, 5), 0), b(random.uniform(1, 5), random.uniform(1, 5), 0);
+        const Point3 a(random.uniform(1, 5), random.uniform(1, 5), 0),
+            b(random.uniform(1, 5), random.uniform(1, 5), 0);
         planes.emplace_back(Corners<3>{a, b, a + Vector3(0, 0, 1)});
     }
     for (const Grade grade : {Grade::ordered_float, Grade::exact}) {
@@ -134,23 +159,31 @@ TEST_CASE("P2: a plane without thickness cuts by noise, thick planes are not tra
         for (const Fragment<3>& f : fragments) {
             Double3 sum(0.0);
             for (std::size_t i = 2; i < f.corners.size(); ++i)
-                sum += glm::cross(f.corners[i - 1].at - f.corners[0].at, f.corners[i].at - f.corners[0].at);
+                sum += glm::cross(f.corners[i - 1].at - f.corners[0].at,
+                                  f.corners[i].at - f.corners[0].at);
             smallest = std::min(smallest, 0.5 * glm::length(sum));
         }
-        fmt::print("  P2: {} fragments of 14 cuts of a triangle of area 49.5, {}: the smallest has {:.2g}\n", fragments.size(), name(grade), smallest);
+        fmt::print(
+            "  P2: {} fragments of 14 cuts of a triangle of area 49.5, {}: the smallest has "
+            "{:.2g}\n",
+            fragments.size(), name(grade), smallest);
         CHECK(fragments.size() > 50);
         CHECK(smallest < 1e-2);
         CHECK(smallest > 0.0);
     }
 }
 
-TEST_CASE("P3: neighbours that cut their edge in opposite directions get different points, and rays leak; in canonical order not") {
+TEST_CASE(
+    "P3: neighbours that cut their edge in opposite directions get different points, and rays "
+    "leak; in canonical order not") {
     // One edge and many planes: how often do its two polygons get two points?
     Pcg32 random(4);
     int differ[4] = {};
     for (int i = 0; i < points / 10; ++i) {
-        const Point3 p = scenes::random_point(random, -1, 1), q = scenes::random_point(random, -1, 1);
-        const std::vector<Corners<3>> pair{{{p, q, scenes::random_point(random, -1, 1)}}, {{q, p, scenes::random_point(random, -1, 1)}}};
+        const Point3 p = scenes::random_point(random, -1, 1),
+                     q = scenes::random_point(random, -1, 1);
+        const std::vector<Corners<3>> pair{{{p, q, scenes::random_point(random, -1, 1)}},
+                                           {{q, p, scenes::random_point(random, -1, 1)}}};
         const std::vector<SplitPlane<3>> planes = random_planes(1, random.next());
         for (std::size_t g = 0; g < 4; ++g) {
             const Splitter<3> splitter(pair, planes, grades[g], 0.0);
@@ -161,16 +194,20 @@ TEST_CASE("P3: neighbours that cut their edge in opposite directions get differe
                 splitter.classify(fragment, 0, sides);
                 if (sides[0] * sides[1] >= 0) continue;
                 const auto [front, back] = splitter.split(fragment, sides, 0);
-                for (const Fragment<3>* half : {&front, &back})  // the corner that edge 0 ends at, or begins with
+                for (const Fragment<3>* half :
+                     {&front, &back})  // the corner that edge 0 ends at, or begins with
                     for (std::size_t c = 0; c < half->corners.size(); ++c)
-                        if (half->corners[c].carrier == Carrier::original(0) && half->corners[c].at != Double3(pair[k][0]))
+                        if (half->corners[c].carrier == Carrier::original(0) &&
+                            half->corners[c].at != Double3(pair[k][0]))
                             cut[k] = half->corners[c].at;
             }
             differ[g] += cut[0] && cut[1] && *cut[0] != *cut[1];
         }
     }
-    fmt::print("  P3: of {} pairs of neighbours, two points: {} thick float, {} ordered float, {} ordered double, {} exact\n",
-               points / 10, differ[0], differ[1], differ[2], differ[3]);
+    fmt::print(
+        "  P3: of {} pairs of neighbours, two points: {} thick float, {} ordered float, {} ordered "
+        "double, {} exact\n",
+        points / 10, differ[0], differ[1], differ[2], differ[3]);
     CHECK(differ[0] > points / 100);
     CHECK(differ[1] == 0);
     CHECK(differ[2] == 0);
@@ -183,26 +220,33 @@ TEST_CASE("P3: neighbours that cut their edge in opposite directions get differe
         const auto fragments = cut_by_all(polygons, planes, grade, 0.0);
         const Gallery gallery({polygons, planes, fragments, grade}, polygons.size());
         const Leaks old = gallery.at_old_edges(rays, 6), cuts = gallery.at_cuts(rays, 7);
-        fmt::print("  P3: sphere cut by 16 planes, {}: {} of {} rays leak at old edges, {} of {} at cuts\n", name(grade),
-                   old.through, with_commas(old.hits), cuts.through, with_commas(cuts.hits));
+        fmt::print(
+            "  P3: sphere cut by 16 planes, {}: {} of {} rays leak at old edges, {} of {} at "
+            "cuts\n",
+            name(grade), old.through, with_commas(old.hits), cuts.through, with_commas(cuts.hits));
         CHECK((old.through > 0) == (grade == Grade::thick_float));
         if (grade != Grade::thick_float) CHECK(cuts.through == 0);
         if (grade == Grade::exact) CHECK(old.unmet + cuts.unmet + old.leaks + cuts.leaks == 0);
     }
 }
 
-TEST_CASE("P4: where only one of two neighbours is cut, rays leak through the T-junction; the original triangles and exact corners close it") {
+TEST_CASE(
+    "P4: where only one of two neighbours is cut, rays leak through the T-junction; the original "
+    "triangles and exact corners close it") {
     const std::vector<Triangle> sphere = icosphere(8).triangles();
     const auto polygons = corners(sphere);
     const auto planes = random_planes(16, 8);
     const auto bsp = Bsp<FilteredExact>::build(sphere);
     for (const Grade grade : grades) {
         const auto fragments = cut_by_all(polygons, planes, grade, 0.0, 2);
-        const Leaks leaks = Gallery({polygons, planes, fragments, grade}, polygons.size()).at_old_edges(rays, 9);
+        const Leaks leaks =
+            Gallery({polygons, planes, fragments, grade}, polygons.size()).at_old_edges(rays, 9);
         std::uint64_t caught = 0;
         for (const Ray& ray : leaks.leaking) caught += any_hit(bsp, ray);
-        fmt::print("  P4: every second triangle cut, {}: {} of {} rays leak; the original triangles catch {} of {}\n", name(grade),
-                   leaks.through, with_commas(leaks.hits), caught, leaks.leaking.size());
+        fmt::print(
+            "  P4: every second triangle cut, {}: {} of {} rays leak; the original triangles catch "
+            "{} of {}\n",
+            name(grade), leaks.through, with_commas(leaks.hits), caught, leaks.leaking.size());
         CHECK(caught == leaks.leaking.size());
         if (grade == Grade::thick_float || grade == Grade::ordered_float) CHECK(leaks.through > 0);
         if (grade == Grade::exact) CHECK(leaks.leaks + leaks.unmet == 0);
@@ -213,7 +257,9 @@ TEST_CASE("P5: cuts of cuts drift off the plane and lose area; exact corners don
     const std::vector<Corners<3>> triangle{{{{0, 0, 0.3f}, {10, 1, 1.7f}, {1, 10, -2.1f}}}};
     std::vector<SplitPlane<3>> planes;
     Pcg32 random(10);
-    const auto place = [&] { return Point3(random.uniform(1, 5), random.uniform(1, 5), random.uniform(-1, 1)); };
+    const auto place = [&] {
+        return Point3(random.uniform(1, 5), random.uniform(1, 5), random.uniform(-1, 1));
+    };
     for (int i = 0; i < 14; ++i) {
         const Point3 a = place(), b = place();
         planes.emplace_back(Corners<3>{a, b, place()});
@@ -227,8 +273,10 @@ TEST_CASE("P5: cuts of cuts drift off the plane and lose area; exact corners don
                 off += cgal_side(triangle[0], c.at) != 0;
                 ++corners_seen;
             }
-        fmt::print("  P5: 14 cuts, {}: {} fragments, area off by {:.2g}; {} of {} rounded corners off the plane\n", name(grade),
-                   fragments.size(), error, off, corners_seen);
+        fmt::print(
+            "  P5: 14 cuts, {}: {} fragments, area off by {:.2g}; {} of {} rounded corners off the "
+            "plane\n",
+            name(grade), fragments.size(), error, off, corners_seen);
         CHECK(fragments.size() > 30);
         CHECK(off > 0);  // in the exact grade, too: but it is not its doubles that decide
         CHECK((error == 0.0) == (grade == Grade::exact));
@@ -237,16 +285,21 @@ TEST_CASE("P5: cuts of cuts drift off the plane and lose area; exact corners don
     }
 }
 
-TEST_CASE("P6: without a place for coplanar polygons they are lost or never end; in the node they are kept") {
-    const Corners<3> one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, overlapping{{{0.2f, 0.2f, 0}, {2, 0, 0}, {0, 2, 0}}};
+TEST_CASE(
+    "P6: without a place for coplanar polygons they are lost or never end; in the node they are "
+    "kept") {
+    const Corners<3> one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+        overlapping{{{0.2f, 0.2f, 0}, {2, 0, 0}, {0, 2, 0}}};
     const std::vector<Corners<3>> same{one, one}, overlap{one, overlapping};
     for (const auto& polygons : {same, overlap}) {
         const std::vector<SplitPlane<3>> planes{SplitPlane<3>(one)};
         std::vector<int> sides;
         int strictly = 0, loosely = 0;
         for (const Corners<3>& polygon : polygons) {
-            Splitter<3>(polygons, planes, Grade::exact, 0.0).classify(whole_polygon<3>(polygon, 0), 0, sides);
-            strictly += Splitter<3>::place(sides) == Side::front || Splitter<3>::place(sides) == Side::back;
+            Splitter<3>(polygons, planes, Grade::exact, 0.0)
+                .classify(whole_polygon<3>(polygon, 0), 0, sides);
+            strictly +=
+                Splitter<3>::place(sides) == Side::front || Splitter<3>::place(sides) == Side::back;
             loosely += std::all_of(sides.begin(), sides.end(), [](int side) { return side <= 0; });
         }
         CHECK(strictly == 0);  // "in front or behind": both are lost
@@ -264,40 +317,54 @@ TEST_CASE("P7: fragments grow faster than n; more candidates cut less; the bound
     for (const std::uint32_t n : sizes) {
         const auto polygons = corners(scenes::soup(n, 1.0f, 11));
         const auto growth = [&](SplitterChoice choice, std::uint32_t candidates) {
-            const BspTree<3> tree = BspBuilder<3>::build(polygons, {.splitter = choice, .candidates = candidates});
+            const BspTree<3> tree =
+                BspBuilder<3>::build(polygons, {.splitter = choice, .candidates = candidates});
             return static_cast<double>(tree.fragments.size()) / n;
         };
-        const double first = growth(SplitterChoice::first, 1), best = growth(SplitterChoice::fewest_splits, 8),
+        const double first = growth(SplitterChoice::first, 1),
+                     best = growth(SplitterChoice::fewest_splits, 8),
                      weighted = growth(SplitterChoice::weighted, 8);
-        fmt::print("  P7: {} large triangles: {:.0f} fragments of each with the first splitter, {:.0f} with the one of 8 that cuts fewest, "
-                   "{:.0f} with the weighted one\n", n, first, best, weighted);
-        CHECK(first > 1.7 * before[0]);  // n times as many polygons: more than n times as many fragments of each
+        fmt::print(
+            "  P7: {} large triangles: {:.0f} fragments of each with the first splitter, {:.0f} "
+            "with the one of 8 that cuts fewest, "
+            "{:.0f} with the weighted one\n",
+            n, first, best, weighted);
+        CHECK(first > 1.7 * before[0]);  // n times as many polygons: more than n times as many
+                                         // fragments of each
         CHECK(best > 1.5 * before[1]);
         CHECK(best < first);
         CHECK(weighted < first);
         before = {first, best};
-        CHECK_THROWS_AS(BspBuilder<3>::build(polygons, {.max_fragments = std::size_t{5} * n}), Error);
+        CHECK_THROWS_AS(BspBuilder<3>::build(polygons, {.max_fragments = std::size_t{5} * n}),
+                        Error);
     }
 }
 
-TEST_CASE("P8: a convex body makes a chain whatever polygon is chosen; planes that are no polygons break it") {
+TEST_CASE(
+    "P8: a convex body makes a chain whatever polygon is chosen; planes that are no polygons break "
+    "it") {
     std::vector<glm::dvec2> profile;
     for (std::uint32_t i = 0; i <= rows; ++i) {
         const double angle = 3.14159265358979323846 * i / rows;
         profile.emplace_back(i == 0 || i == rows ? 0.0 : std::sin(angle), -std::cos(angle));
     }
     const auto polygons = corners(lathe(profile, 24).triangles());
-    const auto build = [&](SplitterChoice choice) { return BspBuilder<3>::build(polygons, {.splitter = choice}); };
+    const auto build = [&](SplitterChoice choice) {
+        return BspBuilder<3>::build(polygons, {.splitter = choice});
+    };
     const std::size_t faces = polygons.size();
     CHECK(faces == 2 * 24 * (rows - 1));
-    for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced, SplitterChoice::weighted}) {
+    for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::random,
+                                        SplitterChoice::balanced, SplitterChoice::weighted}) {
         const BspTree<3> tree = build(choice);
-        fmt::print("  P8: sphere of {} faces, choice {}: depth {}, {} fragments\n", faces, static_cast<int>(choice), tree.depth(), tree.fragments.size());
+        fmt::print("  P8: sphere of {} faces, choice {}: depth {}, {} fragments\n", faces,
+                   static_cast<int>(choice), tree.depth(), tree.fragments.size());
         CHECK(tree.depth() > faces / 3);
         CHECK(tree.fragments.size() < 3 * faces);
     }
     const BspTree<3> free = build(SplitterChoice::free);
-    fmt::print("  P8: sphere of {} faces, free planes: depth {}, {} fragments\n", faces, free.depth(), free.fragments.size());
+    fmt::print("  P8: sphere of {} faces, free planes: depth {}, {} fragments\n", faces,
+               free.depth(), free.fragments.size());
     CHECK(free.depth() < 40);
     CHECK(free.fragments.size() < 3 * faces);
     CHECK(examine_tiling(free, Grade::exact).is_exact());

@@ -1,16 +1,16 @@
-// Chains of a hundred thousand nodes on a small stack, sets without an end, numbers at the ends of float's range, bounds on
-// memory, and the same tree twice.
-#include <pthread.h>
-
-#include <bit>
-#include <cstdlib>
-
+// Chains of a hundred thousand nodes on a small stack, sets without an end, numbers at the ends of
+// float's range, bounds on memory, and the same tree twice.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 #include "common/program/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
+
+#include <pthread.h>
+
+#include <bit>
+#include <cstdlib>
 
 namespace space {
 namespace {
@@ -50,7 +50,8 @@ std::vector<Triangle> stairs(std::int32_t count) {
     return triangles;
 }
 
-/// The tree that the stairs make, without the time that it takes to sort them: each plane has all later ones in front.
+/// The tree that the stairs make, without the time that it takes to sort them: each plane has all
+/// later ones in front.
 BspTree<3> chain(std::int32_t count) {
     BspTree<3> tree;
     const std::vector<Triangle> triangles = stairs(count);
@@ -59,7 +60,8 @@ BspTree<3> chain(std::int32_t count) {
         tree.polygons.push_back(corners(triangles[number]));
         tree.planes.emplace_back(tree.polygons.back());
         tree.fragments.push_back(whole_polygon<3>(tree.polygons.back(), number));
-        tree.nodes.push_back({number, i + 1 < count ? i + 1 : BspTree<3>::none, BspTree<3>::none, number, 1});
+        tree.nodes.push_back(
+            {number, i + 1 < count ? i + 1 : BspTree<3>::none, BspTree<3>::none, number, 1});
     }
     return tree;
 }
@@ -153,7 +155,8 @@ int wrong_hits(const std::vector<Triangle>& triangles, const BspConfig& config, 
         const Point3 origin = size * scenes::random_point(random, -0.5f, 1.5f);
         Vector3 direction = scenes::random_point(random, -1.0f, 1.0f);
         if (i % 2 && !triangles.empty()) {
-            const Triangle& aim = triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];
+            const Triangle& aim =
+                triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];
             direction = 0.25f * (aim.a + aim.b) + 0.5f * aim.c - origin;
         }
         wrong += closest_hit(bsp, {origin, direction}) != closest_hit(naive, {origin, direction});
@@ -164,7 +167,9 @@ int wrong_hits(const std::vector<Triangle>& triangles, const BspConfig& config, 
 
 }  // namespace
 
-TEST_CASE("a chain of a hundred thousand nodes is painted, traced, located in, copied and destroyed on a small stack") {
+TEST_CASE(
+    "a chain of a hundred thousand nodes is painted, traced, located in, copied and destroyed on a "
+    "small stack") {
     Answers answers, of_copy;
     on_a_small_stack([&] {
         const BspTree<3> tree = chain(made_chain);
@@ -184,7 +189,8 @@ TEST_CASE("a chain of a hundred thousand nodes is built without recursion", "[.b
     build_and_trace(made_chain);
 }
 
-TEST_CASE("in the plane, too: a chain of segments is built, painted and located in on a small stack") {
+TEST_CASE(
+    "in the plane, too: a chain of segments is built, painted and located in on a small stack") {
     const std::int32_t count = built_chain / 2;
     std::vector<Corners<2>> segments;
     for (std::int32_t i = 0; i < count; ++i) {
@@ -208,7 +214,8 @@ TEST_CASE("thousands of equal triangles make one node, and a ray hits the first 
     const Triangle one{{0.1f, 0.2f, 0.3f}, {0.9f, 0.3f, 0.4f}, {0.4f, 0.8f, 0.7f}};
     std::vector<Triangle> triangles(5'000, one);
     for (std::size_t i = 1; i < triangles.size(); i += 2) std::swap(triangles[i].b, triangles[i].c);
-    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
+    for (const Grade grade :
+         {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
         const auto bsp = Bsp<>::build(triangles, {.grade = grade});
         CHECK(bsp.tree().nodes.size() == 1);
         CHECK(bsp.tree().fragments.size() == triangles.size());
@@ -220,8 +227,10 @@ TEST_CASE("thousands of equal triangles make one node, and a ray hits the first 
 }
 
 TEST_CASE("polygons in one plane make one node in the exact grade, however the plane lies") {
-    CHECK(Bsp<>::build(scenes::mapped(scenes::soup(2'000, 0.3f, 6), [](const Point3& p) { return Point3(p.x, p.y, 0.5f); }))
-              .tree().nodes.size() == 1);
+    CHECK(Bsp<>::build(scenes::mapped(scenes::soup(2'000, 0.3f, 6),
+                                      [](const Point3& p) { return Point3(p.x, p.y, 0.5f); }))
+              .tree()
+              .nodes.size() == 1);
     std::vector<Triangle> slanted = scenes::coplanar(300, 5);
     slanted.resize(500);  // of the first plane
     CHECK(Bsp<>::build(slanted).tree().nodes.size() == 1);
@@ -230,7 +239,8 @@ TEST_CASE("polygons in one plane make one node in the exact grade, however the p
 
 TEST_CASE("polygons without extent leave no trace") {
     const Point3 a(0.1f, 0.2f, 0.3f), step(0.25f, 0.5f, 0.125f);
-    const std::vector<Triangle> degenerate{{a, a, a}, {a, a, a + step}, {step, 2.0f * step, 4.0f * step}};
+    const std::vector<Triangle> degenerate{
+        {a, a, a}, {a, a, a + step}, {step, 2.0f * step, 4.0f * step}};
     for (const auto& triangles : {std::vector<Triangle>{}, degenerate}) {
         const auto bsp = Bsp<>::build(triangles);
         CHECK(bsp.tree().nodes.empty());
@@ -254,7 +264,9 @@ TEST_CASE("one triangle makes one node") {
     CHECK_FALSE(closest_hit(bsp, {{1, 1, 1}, {0, 0, -1}}));
 }
 
-TEST_CASE("the exact grade gives the exact test's hits for the largest, the smallest and denormal numbers") {
+TEST_CASE(
+    "the exact grade gives the exact test's hits for the largest, the smallest and denormal "
+    "numbers") {
     const std::vector<Triangle> soup = scenes::soup(60, 0.5f, 11);
     for (const float size : {1e38f, 1e20f, 1e-20f, 1e-38f, 1e-42f, 1e-44f})
         for (const SplitterChoice choice : {SplitterChoice::weighted, SplitterChoice::free}) {
@@ -271,8 +283,11 @@ TEST_CASE("the exact grade gives the exact test's hits for the largest, the smal
 TEST_CASE("the inexact grades end on the largest and smallest numbers") {
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double})
         for (const float size : {1e38f, 1e-38f, 1e-42f})
-            for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::weighted, SplitterChoice::free}) {
-                const auto bsp = Bsp<>::build(scaled(scenes::soup(40, 0.5f, 13), size), {.splitter = choice, .grade = grade, .max_fragments = 100'000});
+            for (const SplitterChoice choice :
+                 {SplitterChoice::first, SplitterChoice::weighted, SplitterChoice::free}) {
+                const auto bsp =
+                    Bsp<>::build(scaled(scenes::soup(40, 0.5f, 13), size),
+                                 {.splitter = choice, .grade = grade, .max_fragments = 100'000});
                 CHECK(bsp.tree().fragments.size() > 0);
             }
 }
@@ -282,7 +297,8 @@ TEST_CASE("the bound on fragments holds to the last one, and says so in one line
     const std::size_t needed = Bsp<>::build(triangles).tree().fragments.size();
     REQUIRE(needed > 300);
     CHECK(Bsp<>::build(triangles, {.max_fragments = needed}).tree().fragments.size() == needed);
-    for (const std::size_t bound : {needed - 1, std::size_t{200}, std::size_t{99}, std::size_t{0}}) {
+    for (const std::size_t bound :
+         {needed - 1, std::size_t{200}, std::size_t{99}, std::size_t{0}}) {
         try {
             Bsp<>::build(triangles, {.max_fragments = bound});
             FAIL("built");
@@ -291,11 +307,13 @@ TEST_CASE("the bound on fragments holds to the last one, and says so in one line
             INFO(line);
             CHECK(error.code() == ExitCode::usage);
             CHECK(line.find('\n') == std::string::npos);
-            CHECK(line.find("more than " + std::to_string(bound) + " fragments") != std::string::npos);
+            CHECK(line.find("more than " + std::to_string(bound) + " fragments") !=
+                  std::string::npos);
         }
     }
     // Shared polygons count, too.
-    CHECK_THROWS_AS(Bsp<>::build(triangles, {.straddlers = Straddlers::share, .max_fragments = 200}), Error);
+    CHECK_THROWS_AS(
+        Bsp<>::build(triangles, {.straddlers = Straddlers::share, .max_fragments = 200}), Error);
     CHECK(Bsp<>::build(std::vector<Triangle>{}, {.max_fragments = 0}).tree().nodes.empty());
 }
 
@@ -303,7 +321,8 @@ TEST_CASE("free planes end where nothing can be parted") {
     // All of one middle, all flat: an axis plane through it has everything across or in it.
     const Triangle one{{-1, -1, 0.5f}, {1, -1, 0.5f}, {0, 1, 0.5f}};
     for (const Grade grade : {Grade::ordered_float, Grade::exact}) {
-        const BspConfig config{.splitter = SplitterChoice::free, .grade = grade, .candidates = 1, .lopsided = 1.1};
+        const BspConfig config{
+            .splitter = SplitterChoice::free, .grade = grade, .candidates = 1, .lopsided = 1.1};
         CHECK(Bsp<>::build(std::vector<Triangle>(50, one), config).tree().nodes.size() == 1);
         CHECK(Bsp<>::build(scenes::soup(60, 1.0f, 14), config).tree().fragments.size() > 60);
         CHECK(Bsp<>::build(scenes::whole_numbers(60, 4, 15), config).tree().fragments.size() > 40);
@@ -312,10 +331,12 @@ TEST_CASE("free planes end where nothing can be parted") {
 }
 
 TEST_CASE("no candidates mean one") {
-    CHECK(Bsp<>::build(scenes::soup(20, 0.5f, 16), {.candidates = 0}).tree().fragments.size() >= 20);
+    CHECK(Bsp<>::build(scenes::soup(20, 0.5f, 16), {.candidates = 0}).tree().fragments.size() >=
+          20);
 }
 
-// ---- the same tree twice -------------------------------------------------------------------------------------------
+// ---- the same tree twice
+// -------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -324,8 +345,9 @@ std::vector<std::uint64_t> bits(const BspTree<D>& tree) {
     std::vector<std::uint64_t> all;
     const auto add = [&](double x) { all.push_back(std::bit_cast<std::uint64_t>(x)); };
     for (const auto& node : tree.nodes)
-        for (const std::int64_t x : {std::int64_t{node.plane}, std::int64_t{node.front}, std::int64_t{node.back},
-                                     std::int64_t{node.first}, std::int64_t{node.count}})
+        for (const std::int64_t x :
+             {std::int64_t{node.plane}, std::int64_t{node.front}, std::int64_t{node.back},
+              std::int64_t{node.first}, std::int64_t{node.count}})
             all.push_back(static_cast<std::uint64_t>(x));
     for (const auto& plane : tree.planes)
         for (int axis = 0; axis < D; ++axis) {
@@ -345,19 +367,25 @@ std::vector<std::uint64_t> bits(const BspTree<D>& tree) {
 
 }  // namespace
 
-TEST_CASE("the same polygons and seed give the same tree, bit for bit; another seed gives another") {
+TEST_CASE(
+    "the same polygons and seed give the same tree, bit for bit; another seed gives another") {
     const auto polygons = corners(scenes::soup(60, 0.6f, 17));
     std::vector<Corners<2>> segments;
     for (const auto& p : polygons) segments.push_back({Point2(p[0]), Point2(p[1])});
-    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})
-        for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced,
-                                            SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free}) {
+    for (const Grade grade :
+         {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})
+        for (const SplitterChoice choice :
+             {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced,
+              SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free}) {
             const BspConfig config{.splitter = choice, .grade = grade};
-            CHECK(bits(BspBuilder<3>::build(polygons, config)) == bits(BspBuilder<3>::build(polygons, config)));
-            CHECK(bits(BspBuilder<2>::build(segments, config)) == bits(BspBuilder<2>::build(segments, config)));
+            CHECK(bits(BspBuilder<3>::build(polygons, config)) ==
+                  bits(BspBuilder<3>::build(polygons, config)));
+            CHECK(bits(BspBuilder<2>::build(segments, config)) ==
+                  bits(BspBuilder<2>::build(segments, config)));
             BspConfig other = config;
             other.seed = 2;
-            CHECK((bits(BspBuilder<3>::build(polygons, config)) == bits(BspBuilder<3>::build(polygons, other))) ==
+            CHECK((bits(BspBuilder<3>::build(polygons, config)) ==
+                   bits(BspBuilder<3>::build(polygons, other))) ==
                   (choice == SplitterChoice::first));
         }
 }

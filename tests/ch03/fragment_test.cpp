@@ -1,17 +1,20 @@
-// Classification and cuts worked out by hand, in all grades, for segments in the plane and triangles in space.
+// Classification and cuts worked out by hand, in all grades, for segments in the plane and
+// triangles in space.
 #include "chapters/ch03_bsp_trees/fragment.hpp"
-
-#include <string>
 
 #include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "tests/catch.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 
+#include <string>
+
 namespace space {
 namespace {
 
-constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact};
-/// Coordinates here are small multiples of 1/4, and cuts lie at such: every grade gets them without rounding.
+constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double,
+                            Grade::exact};
+/// Coordinates here are small multiples of 1/4, and cuts lie at such: every grade gets them without
+/// rounding.
 constexpr double thickness = 0x1p-20;
 
 template <int D>
@@ -20,7 +23,8 @@ struct Scene {
     std::vector<SplitPlane<D>> planes;
 
     Splitter<D> splitter(Grade grade) const { return {polygons, planes, grade, thickness}; }
-    std::vector<int> sides(Grade grade, const Fragment<D>& fragment, std::uint32_t plane = 0) const {
+    std::vector<int> sides(Grade grade, const Fragment<D>& fragment,
+                           std::uint32_t plane = 0) const {
         std::vector<int> result;
         splitter(grade).classify(fragment, plane, result);
         return result;
@@ -41,9 +45,9 @@ template <int D>
 std::string carriers(const Fragment<D>& fragment) {
     std::string text;
     for (const Corner<D>& corner : fragment.corners)
-        text += (text.empty() ? "" : " ") +
-                (corner.carrier.is_original() ? "e" + std::to_string(corner.carrier.edge())
-                                              : "p" + std::to_string(corner.carrier.number()));
+        text += (text.empty() ? "" : " ") + (corner.carrier.is_original()
+                                                 ? "e" + std::to_string(corner.carrier.edge())
+                                                 : "p" + std::to_string(corner.carrier.number()));
     return text;
 }
 template <int D>
@@ -63,7 +67,8 @@ using Points2 = std::vector<DoublePoint<2>>;
 TEST_CASE("axis planes have the larger coordinate in front, in every dimension") {
     for (int axis = 0; axis < 3; ++axis) {
         const SplitPlane<3> plane = axis_plane<3>(axis, 2.5f);
-        for (int other = 0; other < 3; ++other) CHECK((plane.normal[other] > 0.0) == (other == axis));
+        for (int other = 0; other < 3; ++other)
+            CHECK((plane.normal[other] > 0.0) == (other == axis));
         Double3 p(7.0);
         p[axis] = 2.75;
         CHECK(side_filter(plane, p, 0.0) == 1);
@@ -82,27 +87,36 @@ TEST_CASE("axis planes have the larger coordinate in front, in every dimension")
 
 TEST_CASE("a segment is in front, behind, on or across a line") {
     const SplitPlane<2> line({{{0, 0}, {1, 0}}});  // the x axis: its left is above
-    Scene<2> scene{{{{{0, 1}, {2, 3}}}, {{{0, -1}, {2, -3}}}, {{{5, 0}, {-3, 0}}}, {{{0, -1}, {2, 3}}}, {{{1, 0}, {1, 4}}}, {{{1, -2}, {1, 0}}}},
+    Scene<2> scene{{{{{0, 1}, {2, 3}}},
+                    {{{0, -1}, {2, -3}}},
+                    {{{5, 0}, {-3, 0}}},
+                    {{{0, -1}, {2, 3}}},
+                    {{{1, 0}, {1, 4}}},
+                    {{{1, -2}, {1, 0}}}},
                    {line}};
     const std::vector<int> expected[] = {{1, 1}, {-1, -1}, {0, 0}, {-1, 1}, {0, 1}, {-1, 0}};
-    const Side place_expected[] = {Side::front, Side::back, Side::on, Side::across, Side::front, Side::back};
+    const Side place_expected[] = {Side::front,  Side::back,  Side::on,
+                                   Side::across, Side::front, Side::back};
     for (const Grade grade : grades)
         for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) {
-            const std::vector<int> sides = scene.sides(grade, whole_polygon<2>(scene.polygons[i], i));
+            const std::vector<int> sides =
+                scene.sides(grade, whole_polygon<2>(scene.polygons[i], i));
             CHECK(sides == expected[i]);
             CHECK(place<2>(sides) == place_expected[i]);
         }
 }
 
 TEST_CASE("a segment across a line is cut once, and its two parts keep its direction") {
-    Scene<2> scene{{{{{0, -1}, {2, 3}}}, {{{2, 3}, {0, -1}}}}, {SplitPlane<2>({{{0, 0}, {1, 0}}}), SplitPlane<2>({{{0, 2}, {1, 2}}})}};
+    Scene<2> scene{{{{{0, -1}, {2, 3}}}, {{{2, 3}, {0, -1}}}},
+                   {SplitPlane<2>({{{0, 0}, {1, 0}}}), SplitPlane<2>({{{0, 2}, {1, 2}}})}};
     for (const Grade grade : grades) {
         const auto [front, back] = scene.split(grade, whole_polygon<2>(scene.polygons[0], 0));
         CHECK(places(front) == Points2{{0.5, 0}, {2, 3}});
         CHECK(places(back) == Points2{{0, -1}, {0.5, 0}});
         CHECK(carriers(front) == "p0 e1");
         CHECK(carriers(back) == "e0 p0");
-        const auto [other_front, other_back] = scene.split(grade, whole_polygon<2>(scene.polygons[1], 1));
+        const auto [other_front, other_back] =
+            scene.split(grade, whole_polygon<2>(scene.polygons[1], 1));
         CHECK(places(other_front) == Points2{{2, 3}, {0.5, 0}});
         CHECK(places(other_back) == Points2{{0.5, 0}, {0, -1}});
         CHECK(other_front.polygon == 1);
@@ -116,7 +130,9 @@ TEST_CASE("a segment across a line is cut once, and its two parts keep its direc
     }
 }
 
-TEST_CASE("a triangle is in front, behind, on or across a plane; corners and edges in the plane count as on it") {
+TEST_CASE(
+    "a triangle is in front, behind, on or across a plane; corners and edges in the plane count as "
+    "on it") {
     struct Case {
         Corners<3> triangle;
         std::vector<int> sides;
@@ -125,14 +141,14 @@ TEST_CASE("a triangle is in front, behind, on or across a plane; corners and edg
     const Case cases[] = {
         {{{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}}, {1, 1, 1}, Side::front},
         {{{{0, 0, -1}, {1, 0, -1}, {0, 1, -2}}}, {-1, -1, -1}, Side::back},
-        {{{{0, 0, 0}, {1, 0, 1}, {0, 1, 2}}}, {0, 1, 1}, Side::front},        // a corner in the plane
+        {{{{0, 0, 0}, {1, 0, 1}, {0, 1, 2}}}, {0, 1, 1}, Side::front},  // a corner in the plane
         {{{{0, 0, -3}, {1, 0, 0}, {0, 1, -2}}}, {-1, 0, -1}, Side::back},
-        {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 2}}}, {0, 0, 1}, Side::front},        // an edge in the plane
+        {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 2}}}, {0, 0, 1}, Side::front},  // an edge in the plane
         {{{{0, 0, 0}, {1, 0, -1}, {3, 1, 0}}}, {0, -1, 0}, Side::back},
-        {{{{4, 0, 0}, {5, 0, 0}, {4, 1, 0}}}, {0, 0, 0}, Side::on},           // coplanar, the same facing
-        {{{{4, 0, 0}, {4, 1, 0}, {5, 0, 0}}}, {0, 0, 0}, Side::on},           // coplanar, the other facing
+        {{{{4, 0, 0}, {5, 0, 0}, {4, 1, 0}}}, {0, 0, 0}, Side::on},  // coplanar, the same facing
+        {{{{4, 0, 0}, {4, 1, 0}, {5, 0, 0}}}, {0, 0, 0}, Side::on},  // coplanar, the other facing
         {{{{0, 0, -1}, {1, 0, 1}, {0, 1, 1}}}, {-1, 1, 1}, Side::across},
-        {{{{0, 0, 0}, {1, 0, 1}, {0, 1, -1}}}, {0, 1, -1}, Side::across},     // through a corner
+        {{{{0, 0, 0}, {1, 0, 1}, {0, 1, -1}}}, {0, 1, -1}, Side::across},  // through a corner
     };
     for (const Grade grade : grades)
         for (const Case& c : cases) {
@@ -160,14 +176,16 @@ TEST_CASE("a triangle with one corner behind is cut into a triangle and a quadra
 
 TEST_CASE("a plane through a corner cuts a triangle into two triangles that share it") {
     // From front to back along the opposite edge, and from back to front.
-    const Scene<3> scene{{{{{1, 1, 0}, {4, 0, 2}, {0, 4, -2}}}, {{{1, 1, 0}, {0, 4, -2}, {4, 0, 2}}}}, {ground}};
+    const Scene<3> scene{
+        {{{{1, 1, 0}, {4, 0, 2}, {0, 4, -2}}}, {{{1, 1, 0}, {0, 4, -2}, {4, 0, 2}}}}, {ground}};
     for (const Grade grade : grades) {
         const auto [front, back] = scene.split(grade, whole_polygon<3>(scene.polygons[0], 0));
         CHECK(places(front) == Points{{1, 1, 0}, {4, 0, 2}, {2, 2, 0}});
         CHECK(places(back) == Points{{1, 1, 0}, {2, 2, 0}, {0, 4, -2}});
         CHECK(carriers(front) == "e0 e1 p0");
         CHECK(carriers(back) == "p0 e1 e2");
-        const auto [other_front, other_back] = scene.split(grade, whole_polygon<3>(scene.polygons[1], 1));
+        const auto [other_front, other_back] =
+            scene.split(grade, whole_polygon<3>(scene.polygons[1], 1));
         CHECK(places(other_front) == Points{{1, 1, 0}, {2, 2, 0}, {4, 0, 2}});
         CHECK(places(other_back) == Points{{1, 1, 0}, {0, 4, -2}, {2, 2, 0}});
         CHECK(carriers(other_front) == "p0 e1 e2");
@@ -176,9 +194,11 @@ TEST_CASE("a plane through a corner cuts a triangle into two triangles that shar
 }
 
 TEST_CASE("a corner where two splitting planes meet is known by both") {
-    // The triangle in z = 0 below x + y = 4; cut by x = 0 and y = 1, then by planes through the corner that they make.
+    // The triangle in z = 0 below x + y = 4; cut by x = 0 and y = 1, then by planes through the
+    // corner that they make.
     const SplitPlane<3> shelf = axis_plane<3>(1, 1.0f);
-    const SplitPlane<3> diagonal({{{0, 1, 0}, {1, 2, 0}, {0, 1, 1}}});  // through (0, 1), in front: below and right of it
+    const SplitPlane<3> diagonal(
+        {{{0, 1, 0}, {1, 2, 0}, {0, 1, 1}}});  // through (0, 1), in front: below and right of it
     const Scene<3> scene{{{{{-4, 0, 0}, {4, 0, 0}, {-4, 8, 0}}}}, {wall, shelf, diagonal}};
     for (const Grade grade : grades) {
         const auto [right, left] = scene.split(grade, whole_polygon<3>(scene.polygons[0], 0), 0);
@@ -200,7 +220,8 @@ TEST_CASE("a corner where two splitting planes meet is known by both") {
     }
 }
 
-TEST_CASE("a thick plane takes corners within its thickness for its own, and the exact grade doesn't") {
+TEST_CASE(
+    "a thick plane takes corners within its thickness for its own, and the exact grade doesn't") {
     const float just = 0x1p-21f, beyond = 0x1p-19f;
     const Scene<3> scene{{{{{0, 0, just}, {1, 0, -just}, {0, 1, beyond}}}}, {ground}};
     const Fragment<3> fragment = whole_polygon<3>(scene.polygons[0], 0);
@@ -218,7 +239,8 @@ TEST_CASE("a fragment has an extent with as many different corners as its dimens
     CHECK(Splitter<3>::has_extent(fragment3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})));
     CHECK_FALSE(Splitter<3>::has_extent(fragment3({{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}})));
     CHECK_FALSE(Splitter<3>::has_extent(fragment3({{0, 0, 0}, {1, 0, 0}})));
-    Fragment<2> segment{0, {{{1, 2}, 0.0, Carrier::original(0)}, {{1, 2}, 0.0, Carrier::original(1)}}};
+    Fragment<2> segment{0,
+                        {{{1, 2}, 0.0, Carrier::original(0)}, {{1, 2}, 0.0, Carrier::original(1)}}};
     CHECK_FALSE(Splitter<2>::has_extent(segment));
     segment.corners[1].at.x = 3;
     CHECK(Splitter<2>::has_extent(segment));
@@ -229,26 +251,32 @@ TEST_CASE("no tree holds a fragment with fewer different corners than its dimens
         for (const float size : {1.0f, 1e-3f}) {
             const std::vector<Corners<3>> polygons = corners(scenes::soup(100, size, 3));
             std::size_t small = 0;
-            for (const Fragment<3>& f : BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .grade = grade}).fragments)
+            for (const Fragment<3>& f :
+                 BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .grade = grade})
+                     .fragments)
                 small += !Splitter<3>::has_extent(f);
             CHECK(small == 0);
         }
 }
 
 TEST_CASE("the exact grade keeps a sliver whose corners are the same in double") {
-    // On the ground, x = 1 and a plane through (1, y, -2^-60) and (1 + 2^-23, y, 1) have 2^-83 between them.
+    // On the ground, x = 1 and a plane through (1, y, -2^-60) and (1 + 2^-23, y, 1) have 2^-83
+    // between them.
     const SplitPlane<3> upright = axis_plane<3>(0, 1.0f);
     const SplitPlane<3> leaning({{{1, 0, -0x1p-60f}, {1, 1, -0x1p-60f}, {1 + 0x1p-23f, 0, 1}}});
     const Scene<3> scene{{{{{0, -1, 0}, {4, -1, 0}, {0, 3, 0}}}}, {upright, leaning}};
     const auto [right, left] = scene.split(Grade::exact, whole_polygon<3>(scene.polygons[0], 0), 0);
     CHECK(place<3>(scene.sides(Grade::exact, right, 1)) == Side::across);
 
-    const std::vector<Corners<3>> polygons{scene.polygons[0],
-                                           {{{1, 5, -1}, {1, 6, -1}, {1, 5, 1}}},  // off the first, in x = 1
-                                           {{{1, 5, -0x1p-60f}, {1, 6, -0x1p-60f}, {1 + 0x1p-23f, 5, 1}}}};
+    const std::vector<Corners<3>> polygons{
+        scene.polygons[0],
+        {{{1, 5, -1}, {1, 6, -1}, {1, 5, 1}}},  // off the first, in x = 1
+        {{{1, 5, -0x1p-60f}, {1, 6, -0x1p-60f}, {1 + 0x1p-23f, 5, 1}}}};
     const std::uint32_t order[] = {1, 2};
-    const BspTree<3> tree = BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .order = order});
-    CHECK(std::count_if(tree.fragments.begin(), tree.fragments.end(), [](const auto& f) { return f.polygon == 0; }) == 3);
+    const BspTree<3> tree =
+        BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .order = order});
+    CHECK(std::count_if(tree.fragments.begin(), tree.fragments.end(),
+                        [](const auto& f) { return f.polygon == 0; }) == 3);
 }
 
 TEST_CASE("polygons stay as they were given, and fragments name theirs") {
@@ -269,7 +297,8 @@ TEST_CASE("coplanar polygons of either facing stand in one node; nothing else do
                                            {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
                                            {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}}};
     for (const Grade grade : grades) {
-        const BspTree<3> tree = BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .grade = grade});
+        const BspTree<3> tree =
+            BspBuilder<3>::build(polygons, {.splitter = SplitterChoice::first, .grade = grade});
         REQUIRE(tree.nodes.size() == 2);
         CHECK(tree.nodes[0].count == 3);
         CHECK(tree.nodes[0].front == 1);

@@ -2,18 +2,18 @@
 /// Rays at the edges of fragments: which of them slip through.
 #pragma once
 
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+#include "tests/ch03/cgal_fragments.hpp"
+#include "tests/oracle/exact.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
-
-#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "common/pcg32.hpp"
-#include "tests/catch.hpp"
-#include "tests/ch03/cgal_fragments.hpp"
-#include "tests/oracle/exact.hpp"
 
 namespace space {
 
@@ -22,8 +22,8 @@ struct Leaks {
     std::uint64_t aimed = 0;
     std::uint64_t hits = 0;   ///< rays that hit a triangle near the point aimed at, exactly
     std::uint64_t leaks = 0;  ///< of these: no fragment of a triangle near that point is met
-    /// And of these: all triangles near that point face the same way. At a silhouette a cut that rounding moved inwards
-    /// lets rays past without a crack.
+    /// And of these: all triangles near that point face the same way. At a silhouette a cut that
+    /// rounding moved inwards lets rays past without a crack.
     std::uint64_t through = 0;
     std::uint64_t unmet = 0;  ///< triangles that are hit, none of whose fragments is met
     std::uint64_t exact_decisions = 0;
@@ -41,7 +41,8 @@ struct Leaks {
     }
 };
 
-/// Shoots at the edges of fragments, and asks only the triangles near the point that is aimed at: a far side hides no leak.
+/// Shoots at the edges of fragments, and asks only the triangles near the point that is aimed at: a
+/// far side hides no leak.
 class Gallery {
   public:
     /// The first `closed` polygons are aimed at.
@@ -67,7 +68,8 @@ class Gallery {
             if (f.polygon >= closed) continue;
             for (std::size_t c = 0; c < f.corners.size(); ++c)
                 (f.corners[c].carrier.is_original() ? old_ : cut_)
-                    .push_back({f.corners[c].at, f.corners[(c + 1) % f.corners.size()].at, f.polygon});
+                    .push_back(
+                        {f.corners[c].at, f.corners[(c + 1) % f.corners.size()].at, f.polygon});
         }
     }
 
@@ -87,7 +89,8 @@ class Gallery {
         Pcg32 random(seed);
         const Vector3 extent = box_.extent();
         const auto origin = [&]() -> Point3 {
-            for (;;) {  // outside of the box by up to its size; some on the grid that whole numbers lie on
+            for (;;) {  // outside of the box by up to its size; some on the grid that whole numbers
+                        // lie on
                 const auto share = [&] { return random.uniform(-1.0f, 2.0f); };
                 const float x = share(), y = share(), z = share();
                 Point3 p = box_.min + Vector3(x, y, z) * extent;
@@ -97,9 +100,12 @@ class Gallery {
         };
         for (int i = 0; i < rays; ++i) {
             const Edge& edge = edges[random.below(static_cast<std::uint32_t>(edges.size()))];
-            const double s = random.below(8) == 0 ? 0.0 : random.below(4) == 0 ? 0.5 : random.uniform_double();
+            const double s = random.below(8) == 0   ? 0.0
+                             : random.below(4) == 0 ? 0.5
+                                                    : random.uniform_double();
             const Point3 from = origin();
-            aim({from, Vector3(edge.from + s * (edge.to - edge.from) - Double3(from))}, edge.polygon, leaks);
+            aim({from, Vector3(edge.from + s * (edge.to - edge.from) - Double3(from))},
+                edge.polygon, leaks);
         }
         leaks.exact_decisions = fragments_.exact_decisions() - before;
         return leaks;
@@ -109,7 +115,9 @@ class Gallery {
         ++leaks.aimed;
         bool hit = false, met = false, towards = false, away = false;
         for (const std::uint32_t near : near_[polygon]) {
-            const bool meets = std::any_of(of_[near].begin(), of_[near].end(), [&](std::uint32_t f) { return fragments_.meets(ray, f); });
+            const bool meets =
+                std::any_of(of_[near].begin(), of_[near].end(),
+                            [&](std::uint32_t f) { return fragments_.meets(ray, f); });
             const Corners<3>& p = polygons_[near];
             const bool hits = FilteredExact::intersect(ray, {p[0], p[1], p[2]}).has_value();
             hit = hit || hits;
@@ -135,8 +143,9 @@ class Gallery {
     std::span<const Corners<3>> polygons_;
     CgalFragments fragments_;
     Aabb box_;
-    std::vector<std::vector<std::uint32_t>> near_;  ///< of each triangle: those that share a vertex with it, itself too
-    std::vector<std::vector<std::uint32_t>> of_;    ///< of each triangle: its fragments
+    std::vector<std::vector<std::uint32_t>>
+        near_;  ///< of each triangle: those that share a vertex with it, itself too
+    std::vector<std::vector<std::uint32_t>> of_;  ///< of each triangle: its fragments
     std::vector<Edge> old_, cut_;
 };
 

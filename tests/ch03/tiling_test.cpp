@@ -1,11 +1,12 @@
-// The fragments of every polygon tile it: proved by CGAL in exact arithmetic for the exact grade, and by how much not for
-// the others.
-#include <fmt/format.h>
-
+// The fragments of every polygon tile it: proved by CGAL in exact arithmetic for the exact grade,
+// and by how much not for the others.
 #include "chapters/ch03_bsp_trees/tiling.hpp"
+
 #include "tests/catch.hpp"
 #include "tests/ch03/cgal_fragments.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
+
+#include <fmt/format.h>
 
 namespace space {
 namespace {
@@ -16,11 +17,14 @@ constexpr std::uint32_t every = 16;  // of the polygons
 constexpr std::uint32_t every = 1;
 #endif
 
-constexpr Grade inexact_grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double};
-constexpr SplitterChoice choices[] = {SplitterChoice::first,         SplitterChoice::random,   SplitterChoice::balanced,
-                                      SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free};
+constexpr Grade inexact_grades[] = {Grade::thick_float, Grade::ordered_float,
+                                    Grade::ordered_double};
+constexpr SplitterChoice choices[] = {SplitterChoice::first,    SplitterChoice::random,
+                                      SplitterChoice::balanced, SplitterChoice::fewest_splits,
+                                      SplitterChoice::weighted, SplitterChoice::free};
 const char* name(SplitterChoice choice) {
-    constexpr const char* names[] = {"first", "random", "balanced", "fewest splits", "weighted", "free"};
+    constexpr const char* names[] = {"first",         "random",   "balanced",
+                                     "fewest splits", "weighted", "free"};
     return names[static_cast<int>(choice)];
 }
 
@@ -28,7 +32,8 @@ const char* name(SplitterChoice choice) {
 struct Cuts {
     std::vector<std::uint32_t> of;
     template <int D>
-    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t>, std::int32_t, std::int32_t, bool) {}
+    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t>, std::int32_t, std::int32_t,
+                bool) {}
     template <int D>
     void placed(const Fragment<D>&, Side) {}
     template <int D>
@@ -37,16 +42,19 @@ struct Cuts {
     }
 };
 
-/// By how much the areas of fragments can differ from the polygon's in an inexact grade. A cut gives both pieces the same
-/// point; so the sum of their areas changes only by the triangle of the edge p q and the cut: the error of s moves the cut
-/// along the edge and costs nothing, the rounding of p + s (q - p) moves it off, by at most 2 u |q - p| + u |cut| in each
-/// coordinate (a difference, a product and a sum). With M the largest coordinate that is 5 u M, sqrt(3) 5 u M < 9 u M in
-/// all. Twice per cut half the edge, which is no longer than the polygon's longest (but for rounding), times this distance.
+/// By how much the areas of fragments can differ from the polygon's in an inexact grade. A cut
+/// gives both pieces the same point; so the sum of their areas changes only by the triangle of the
+/// edge p q and the cut: the error of s moves the cut along the edge and costs nothing, the
+/// rounding of p + s (q - p) moves it off, by at most 2 u |q - p| + u |cut| in each coordinate (a
+/// difference, a product and a sum). With M the largest coordinate that is 5 u M, sqrt(3) 5 u M < 9
+/// u M in all. Twice per cut half the edge, which is no longer than the polygon's longest (but for
+/// rounding), times this distance.
 double area_bound(const Corners<3>& polygon, std::uint32_t cuts, Grade grade, double largest) {
     const double u = grade == Grade::ordered_double ? 0x1p-53 : 0x1p-24;
     double longest = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
-        longest = std::max(longest, glm::distance(Double3(polygon[i]), Double3(polygon[(i + 1) % 3])));
+        longest =
+            std::max(longest, glm::distance(Double3(polygon[i]), Double3(polygon[(i + 1) % 3])));
     return cuts * 1.01 * longest * 9.0 * u * largest;
 }
 
@@ -54,7 +62,8 @@ double largest_coordinate(const std::vector<Corners<3>>& polygons) {
     double largest = 0.0;
     for (const auto& polygon : polygons)
         for (const Point3& p : polygon)
-            for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(double{p[axis]}));
+            for (int axis = 0; axis < 3; ++axis)
+                largest = std::max(largest, std::abs(double{p[axis]}));
     return largest;
 }
 
@@ -64,13 +73,16 @@ TilingReport examine(const std::vector<Triangle>& triangles, const BspConfig& co
 
 }  // namespace
 
-TEST_CASE("the exact grade tiles every polygon exactly, in every scene and with every choice of splitters") {
+TEST_CASE(
+    "the exact grade tiles every polygon exactly, in every scene and with every choice of "
+    "splitters") {
     std::uint64_t polygons = 0, fragments = 0;
     for (const TestScene& scene : scenes::tiling_scenes())
         for (const SplitterChoice choice : choices) {
             // The worst choices cut without measure: smaller scenes show as much.
             std::vector<Triangle> triangles = scene.triangles;
-            const bool wild = choice == SplitterChoice::first || choice == SplitterChoice::random || choice == SplitterChoice::balanced;
+            const bool wild = choice == SplitterChoice::first || choice == SplitterChoice::random ||
+                              choice == SplitterChoice::balanced;
             if (wild && triangles.size() > 200) triangles.resize(200);
             const TilingReport report = examine(triangles, {.splitter = choice});
             INFO(scene.name << ", " << name(choice) << ": " << report.text());
@@ -84,15 +96,21 @@ TEST_CASE("the exact grade tiles every polygon exactly, in every scene and with 
     CHECK(fragments > 2 * polygons);
 }
 
-TEST_CASE("the exact grade tiles polygons exactly far from the origin, and when they are huge or tiny") {
+TEST_CASE(
+    "the exact grade tiles polygons exactly far from the origin, and when they are huge or tiny") {
     const std::vector<Triangle> soup = scenes::soup(40, 0.6f, 7);
-    const auto scaled = [&](float by) { return scenes::mapped(soup, [&](const Point3& p) { return p * by; }); };
+    const auto scaled = [&](float by) {
+        return scenes::mapped(soup, [&](const Point3& p) { return p * by; });
+    };
     const std::vector<TestScene> list{
         {"huge", scaled(1e38f)},
         {"tiny", scaled(1e-38f)},
         {"denormal", scaled(1e-42f)},
-        {"far away", scenes::mapped(soup, [](const Point3& p) { return p + Point3(3e4f, -2e4f, 1e4f); })},
-        {"on a coarse grid", scenes::mapped(soup, [](const Point3& p) { return glm::floor(p * 8.0f) + Point3(0x1p23f); })}};
+        {"far away",
+         scenes::mapped(soup, [](const Point3& p) { return p + Point3(3e4f, -2e4f, 1e4f); })},
+        {"on a coarse grid", scenes::mapped(soup, [](const Point3& p) {
+             return glm::floor(p * 8.0f) + Point3(0x1p23f);
+         })}};
     for (const TestScene& scene : list) {
         const TilingReport report = examine(scene.triangles, {});
         INFO(scene.name << ": " << report.text());
@@ -108,7 +126,8 @@ TEST_CASE("the exact grade tiles polygons exactly where planes differ in the las
     for (int i = 0; i < 24; ++i) {
         const auto nudge = [&] { return scenes::random_point(random, -1e-7f, 1e-7f); };
         const double angle = 0.13 * i;
-        const Point3 axis_a(0.3f, 0.1f, -1), axis_b(0.4f, 0.2f, 1), out(std::cos(angle), std::sin(angle), 0.1 * i);
+        const Point3 axis_a(0.3f, 0.1f, -1), axis_b(0.4f, 0.2f, 1),
+            out(std::cos(angle), std::sin(angle), 0.1 * i);
         const Point3 p = axis_a - 0.3f * out + nudge(), q = axis_b - 0.3f * out + nudge();
         sheaf.push_back({p, q, 0.5f * (axis_a + axis_b) + out + nudge()});
         const Point3 a = Point3(-1, -0.9f, 0.1f) + nudge(), b = Point3(1.1f, -1, 0.2f) + nudge();
@@ -141,17 +160,20 @@ TEST_CASE("in the plane, the exact grade tiles every segment exactly") {
     }
     for (const auto& scene : {segments, whole})
         for (const SplitterChoice choice : choices) {
-            const TilingReport report = examine_tiling(BspBuilder<2>::build(scene, {.splitter = choice}), Grade::exact);
+            const TilingReport report =
+                examine_tiling(BspBuilder<2>::build(scene, {.splitter = choice}), Grade::exact);
             INFO(name(choice) << ": " << report.text());
             CHECK(report.is_exact());
             CHECK(report.fragments > report.polygons);
         }
-    const TilingReport inexact =
-        examine_tiling(BspBuilder<2>::build(segments, {.grade = Grade::ordered_float}), Grade::ordered_float);
+    const TilingReport inexact = examine_tiling(
+        BspBuilder<2>::build(segments, {.grade = Grade::ordered_float}), Grade::ordered_float);
     CHECK_FALSE(inexact.is_exact());
 }
 
-TEST_CASE("the inexact grades fail: areas differ, fragments leave their plane and overlap; but areas stay within the bound") {
+TEST_CASE(
+    "the inexact grades fail: areas differ, fragments leave their plane and overlap; but areas "
+    "stay within the bound") {
     for (const Grade grade : inexact_grades) {
         TilingReport all;
         double worst_of_bound = 0.0;
@@ -173,10 +195,12 @@ TEST_CASE("the inexact grades fail: areas differ, fragments leave their plane an
                 worst_of_bound = std::max(worst_of_bound, errors[i] / bound);
             }
             const TilingReport report = examine_tiling(tree, grade, every);
-            fmt::print("  {}, {}: worst area error {:.2g}\n", name(grade), scene.name, report.worst_area);
+            fmt::print("  {}, {}: worst area error {:.2g}\n", name(grade), scene.name,
+                       report.worst_area);
             all += report;
         }
-        fmt::print("  {}: {}; at most {:.2g} of the bound\n", name(grade), all.text(), worst_of_bound);
+        fmt::print("  {}: {}; at most {:.2g} of the bound\n", name(grade), all.text(),
+                   worst_of_bound);
         CHECK(beyond == 0);
         CHECK(worst_of_bound > 1e-3);  // the bound is worth stating
         CHECK(all.wrong_area > 0);
@@ -189,9 +213,12 @@ TEST_CASE("the inexact grades fail: areas differ, fragments leave their plane an
 }
 
 TEST_CASE("the chapter's own measure of areas and cracks agrees with CGAL's") {
-    for (const TestScene& scene : {TestScene{"random", scenes::soup(40, 0.6f, 1)}, {"two spheres", scenes::tiling_scenes()[7].triangles}})
-        for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
-            const BspTree<3> tree = BspBuilder<3>::build(corners(scene.triangles), {.grade = grade});
+    for (const TestScene& scene : {TestScene{"random", scenes::soup(40, 0.6f, 1)},
+                                   {"two spheres", scenes::tiling_scenes()[7].triangles}})
+        for (const Grade grade :
+             {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
+            const BspTree<3> tree =
+                BspBuilder<3>::build(corners(scene.triangles), {.grade = grade});
             const Tiling tiling = measure_tiling(tree, grade);
             const TilingReport report = examine_tiling(tree, grade);
             INFO(scene.name << ", " << name(grade));

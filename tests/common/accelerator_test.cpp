@@ -1,9 +1,9 @@
 #include "common/accelerator.hpp"
 
-#include <type_traits>
-
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "tests/catch.hpp"
+
+#include <type_traits>
 
 namespace space {
 
@@ -29,8 +29,10 @@ TEST_CASE("counts count and add up") {
     CHECK(sum == TraversalCounts{.nodes_visited = 11, .triangles_tested = 22});
 }
 
-TEST_CASE("naive tracing tests every triangle for the closest hit, and stops at the first for any hit") {
-    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};
+TEST_CASE(
+    "naive tracing tests every triangle for the closest hit, and stops at the first for any hit") {
+    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}},
+        far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}};
     const Naive<> naive = Naive<>::build(std::vector{far, near, near});
     const Ray ray{.origin = {0, 0, 0}, .direction = {0, 0, 1}};
     TraversalCounts closest, any;

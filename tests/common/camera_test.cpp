@@ -20,7 +20,8 @@ TEST_CASE("rays through the corners and the centre of a picture twice as wide as
     CHECK(ray_at(square, 200, 0, 200, 100).direction == Vector3(2, 1, -1));
     CHECK(ray_at(square, 0, 100, 200, 100).direction == Vector3(-2, -1, -1));
     CHECK(ray_at(square, 200, 100, 200, 100).direction == Vector3(2, -1, -1));
-    CHECK(ray_at(square, 0.5, 0.5, 2, 2).direction == Vector3(-0.5f, 0.5f, -1));  // the first pixel's centre
+    CHECK(ray_at(square, 0.5, 0.5, 2, 2).direction ==
+          Vector3(-0.5f, 0.5f, -1));  // the first pixel's centre
 }
 
 TEST_CASE("rays start at the eye, reach from 0 to infinity and are valid") {
@@ -32,8 +33,8 @@ TEST_CASE("rays start at the eye, reach from 0 to infinity and are valid") {
 }
 
 TEST_CASE("the camera's axes are orthonormal and right-handed, however it looks") {
-    for (const Camera& camera :
-         {square, Camera{{3, -4, 1}, {0.5f, 2, 7}, {0, 0, 1}, 30}, Camera{{0, 10, 0}, {0, 0, 0}, {1, 0, 0}, 60}}) {
+    for (const Camera& camera : {square, Camera{{3, -4, 1}, {0.5f, 2, 7}, {0, 0, 1}, 30},
+                                 Camera{{0, 10, 0}, {0, 0, 0}, {1, 0, 0}, 60}}) {
         const CameraFrame frame(camera);
         CHECK(glm::length(frame.right) == Approx(1).epsilon(1e-14));
         CHECK(glm::length(frame.up) == Approx(1).epsilon(1e-14));
@@ -47,7 +48,8 @@ TEST_CASE("the camera's axes are orthonormal and right-handed, however it looks"
 TEST_CASE("the field of view is the vertical angle between the rays of the upper and lower edge") {
     Camera camera = square;
     camera.field_of_view = 40;
-    const Double3 top(ray_at(camera, 5, 0, 10, 8).direction), bottom(ray_at(camera, 5, 8, 10, 8).direction);
+    const Double3 top(ray_at(camera, 5, 0, 10, 8).direction),
+        bottom(ray_at(camera, 5, 8, 10, 8).direction);
     const double angle = std::acos(glm::dot(top, bottom) / glm::length(top) / glm::length(bottom));
     CHECK(angle * 180.0 / 3.14159265358979323846 == Approx(40).epsilon(1e-6));
 }

@@ -1,13 +1,13 @@
 #include "common/program/file.hpp"
 
+#include "common/program/error.hpp"
+#include "tests/catch.hpp"
+#include "tests/common/temporary.hpp"
+
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <csignal>
-
-#include "common/program/error.hpp"
-#include "tests/catch.hpp"
-#include "tests/common/temporary.hpp"
 
 namespace space {
 namespace {
@@ -26,7 +26,8 @@ std::string error_of(ExitCode code, const Body& body) {
     return {};
 }
 
-/// For its lifetime no file may grow beyond so many bytes: a full disk, for whoever may run the tests.
+/// For its lifetime no file may grow beyond so many bytes: a full disk, for whoever may run the
+/// tests.
 class FullDisk {
   public:
     explicit FullDisk(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -70,14 +71,18 @@ TEST_CASE("a missing directory is made, an old file replaced") {
 TEST_CASE("reading what cannot be read names the file and the fault") {
     const TemporaryDirectory directory;
     const std::string missing = (directory.path() / "none").string();
-    CHECK(error_of(ExitCode::bad_input, [&] { read_file(missing); }) == missing + ": No such file or directory");
+    CHECK(error_of(ExitCode::bad_input, [&] { read_file(missing); }) ==
+          missing + ": No such file or directory");
     CHECK(error_of(ExitCode::bad_input, [&] { read_file(directory.path()); }) ==
           directory.path().string() + ": not a regular file");
-    CHECK(error_of(ExitCode::bad_input, [] { read_file("/dev/zero"); }) == "/dev/zero: not a regular file");
-    CHECK(error_of(ExitCode::bad_input, [] { read_file(""); }).find("No such file") != std::string::npos);
+    CHECK(error_of(ExitCode::bad_input, [] { read_file("/dev/zero"); }) ==
+          "/dev/zero: not a regular file");
+    CHECK(error_of(ExitCode::bad_input, [] { read_file(""); }).find("No such file") !=
+          std::string::npos);
 }
 
-TEST_CASE("on a full disk the error says so, the old file stands, and no part of the new one is left") {
+TEST_CASE(
+    "on a full disk the error says so, the old file stands, and no part of the new one is left") {
     const TemporaryDirectory directory;
     const auto file = directory.path() / "file";
     const std::string large(1 << 16, 'x');
@@ -100,8 +105,9 @@ TEST_CASE("on a full disk the error says so, the old file stands, and no part of
 
 TEST_CASE("what is no regular file is not written over") {
     const TemporaryDirectory directory;
-    CHECK(error_of(ExitCode::bad_output, [&] { write_file(directory.path(), "x"); }).find("not a regular file") !=
-          std::string::npos);
+    CHECK(error_of(ExitCode::bad_output, [&] {
+              write_file(directory.path(), "x");
+          }).find("not a regular file") != std::string::npos);
     CHECK(error_of(ExitCode::bad_output, [] { write_file("/dev/full", "x"); }) ==
           "cannot write /dev/full: not a regular file");
     struct stat status {};
@@ -113,25 +119,31 @@ TEST_CASE("a directory that cannot be made is an error that names it") {
     const TemporaryDirectory directory;
     write_file(directory.path() / "file", "x");
     const auto below = directory.path() / "file" / "below";
-    const std::string line = error_of(ExitCode::bad_output, [&] { write_file(below / "new", "x"); });
+    const std::string line =
+        error_of(ExitCode::bad_output, [&] { write_file(below / "new", "x"); });
     CHECK(line == "cannot make directory " + below.string() + ": Not a directory");
-    CHECK(error_of(ExitCode::bad_output, [] { write_file("/proc/none/file", "x"); }).find("/proc/none") !=
-          std::string::npos);
+    CHECK(error_of(ExitCode::bad_output, [] {
+              write_file("/proc/none/file", "x");
+          }).find("/proc/none") != std::string::npos);
     CHECK(directory.entries() == 1);
 }
 
-TEST_CASE("what will not be writable is refused beforehand as it would be later, and what will be leaves no trace") {
+TEST_CASE(
+    "what will not be writable is refused beforehand as it would be later, and what will be leaves "
+    "no trace") {
     const TemporaryDirectory directory;
     const auto old = directory.path() / "old";
     write_file(old, "old");
-    for (const auto& file : {old, directory.path() / "new", directory.path() / "one" / "two" / "new"})
+    for (const auto& file :
+         {old, directory.path() / "new", directory.path() / "one" / "two" / "new"})
         check_writable(file);
     CHECK(directory.entries() == 1);
     CHECK(read_file(old) == "old");
 
     for (const std::filesystem::path& file :
-         {directory.path(), old / "new", old / "below" / "new", directory.path() / "one" / std::string(300, 'x'),
-          std::filesystem::path("/dev/full"), std::filesystem::path("/proc/none/file")}) {
+         {directory.path(), old / "new", old / "below" / "new",
+          directory.path() / "one" / std::string(300, 'x'), std::filesystem::path("/dev/full"),
+          std::filesystem::path("/proc/none/file")}) {
         const std::string line = error_of(ExitCode::bad_output, [&] { check_writable(file); });
         CHECK(directory.entries() == 1);  // no "one"
         CHECK(line == error_of(ExitCode::bad_output, [&] { write_file(file, "x"); }));

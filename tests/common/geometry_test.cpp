@@ -6,7 +6,9 @@ namespace space {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-TEST_CASE("an empty box has no extent and no area, is in every box, and becomes any point that it is extended by") {
+TEST_CASE(
+    "an empty box has no extent and no area, is in every box, and becomes any point that it is "
+    "extended by") {
     Aabb box = Aabb::empty();
     CHECK(box.is_empty());
     CHECK(box.extent() == Vector3{0.0f});
@@ -70,14 +72,17 @@ TEST_CASE("a ray is valid with finite origin and direction, a direction and an i
     CHECK(good.at(2.5f) == Point3{0, 0, 2.5f});
 }
 
-TEST_CASE("a triangle's normal is twice its area long and points to where its vertices run counter-clockwise") {
+TEST_CASE(
+    "a triangle's normal is twice its area long and points to where its vertices run "
+    "counter-clockwise") {
     const Triangle triangle{{1, 1, 2}, {4, 1, 2}, {1, 3, 2}};
     CHECK(normal(triangle) == Double3(0, 0, 6));
     CHECK(normal({triangle.a, triangle.c, triangle.b}) == Double3(0, 0, -6));
     CHECK(normal({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}) == Double3(0.0));
     CHECK(bounds(triangle) == Aabb{{1, 1, 2}, {4, 3, 2}});
     // In float the difference of these products is lost.
-    CHECK(normal({{0, 0, 0}, {0x1.000002p0f, 1, 0}, {0x1.000004p0f, 0x1.000002p0f, 0}}) == Double3(0, 0, 0x1p-46));
+    CHECK(normal({{0, 0, 0}, {0x1.000002p0f, 1, 0}, {0x1.000004p0f, 0x1.000002p0f, 0}}) ==
+          Double3(0, 0, 0x1p-46));
 }
 
 }  // namespace space

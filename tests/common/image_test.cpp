@@ -1,11 +1,11 @@
 #include "common/program/image.hpp"
 
-#include <limits>
-
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
+
+#include <limits>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -23,7 +23,8 @@ Image gradient(int width, int height) {
     Image image(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            image.at(x, y) = {float(x) / float(width), float(y) / float(height), float(x ^ y) / 64.0f};
+            image.at(x, y) = {float(x) / float(width), float(y) / float(height),
+                              float(x ^ y) / 64.0f};
     return image;
 }
 
@@ -70,8 +71,8 @@ TEST_CASE("a PNG file holds the picture's bytes, row by row from the top left") 
         const std::string png = read_file(file);
         CHECK(png.starts_with("\x89PNG\r\n\x1a\n"));
         int w = 0, h = 0, channels = 0;
-        stbi_uc* const pixels =
-            stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()), int(png.size()), &w, &h, &channels, 0);
+        stbi_uc* const pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()),
+                                                      int(png.size()), &w, &h, &channels, 0);
         REQUIRE(pixels != nullptr);
         CHECK(w == width);
         CHECK(h == height);

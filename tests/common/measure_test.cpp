@@ -1,8 +1,8 @@
 #include "common/measure.hpp"
 
-#include <string>
-
 #include "tests/catch.hpp"
+
+#include <string>
 
 namespace space {
 
@@ -31,8 +31,8 @@ TEST_CASE("the log-log slope is the exponent of a power, whatever the factor") {
 
 TEST_CASE("measured candidates take turns, after one round of warming up") {
     std::string order;
-    const std::vector<std::function<void()>> candidates{[&] { order += 'a'; }, [&] { order += 'b'; },
-                                                        [&] { order += 'c'; }};
+    const std::vector<std::function<void()>> candidates{
+        [&] { order += 'a'; }, [&] { order += 'b'; }, [&] { order += 'c'; }};
     const std::vector<double> medians = interleaved_medians(candidates, 3);
     CHECK(order == "abcabcabcabc");
     CHECK(medians.size() == 3);

@@ -1,16 +1,17 @@
 #include "common/program/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "common/program/error.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace space {
 namespace {
 
-const ProgramInfo program{
-    .name = "ch00_test", .about = "A test.", .defaults = {.scene = "bunny", .seed = 7, .width = 320, .height = 200}};
+const ProgramInfo program{.name = "ch00_test",
+                          .about = "A test.",
+                          .defaults = {.scene = "bunny", .seed = 7, .width = 320, .height = 200}};
 
 Options parsed(std::vector<std::string> words, const std::function<void(CLI::App&)>& more = {}) {
     words.insert(words.begin(), program.name);
@@ -47,8 +48,9 @@ TEST_CASE("without options the program's defaults hold, and every core works") {
 }
 
 TEST_CASE("every option is understood") {
-    const Options options = parsed({"--scene", "soup:500", "--small", "--quick", "--out", "there", "--threads", "3",
-                                    "--seed", "18446744073709551615", "--size", "16384x1", "--figure", "fig_01_02"});
+    const Options options =
+        parsed({"--scene", "soup:500", "--small", "--quick", "--out", "there", "--threads", "3",
+                "--seed", "18446744073709551615", "--size", "16384x1", "--figure", "fig_01_02"});
     CHECK(options.scene == "soup:500");
     CHECK(options.small);
     CHECK(options.quick);
@@ -125,8 +127,8 @@ TEST_CASE("--help names every option and exits with 0") {
         });
     });
     CHECK(code == 0);
-    for (const char* option :
-         {"A test.", "--scene", "--small", "--quick", "--out", "--figure", "--threads", "--seed", "--size"})
+    for (const char* option : {"A test.", "--scene", "--small", "--quick", "--out", "--figure",
+                               "--threads", "--seed", "--size"})
         CHECK(help.find(option) != std::string::npos);
 }
 

@@ -1,9 +1,9 @@
 #include "common/parallel.hpp"
 
+#include "tests/catch.hpp"
+
 #include <set>
 #include <stdexcept>
-
-#include "tests/catch.hpp"
 
 namespace space {
 
@@ -14,7 +14,8 @@ TEST_CASE("every index is visited exactly once, for any number of threads and an
                 std::vector<std::atomic<int>> visits(count);
                 parallel_for(count, threads, chunk, [&](std::size_t i) { ++visits[i]; });
                 INFO(count << " indices, " << threads << " threads, chunks of " << chunk);
-                CHECK(std::all_of(visits.begin(), visits.end(), [](const auto& visit) { return visit == 1; }));
+                CHECK(std::all_of(visits.begin(), visits.end(),
+                                  [](const auto& visit) { return visit == 1; }));
             }
 }
 
@@ -43,7 +44,8 @@ TEST_CASE("no more threads are used than asked for; with one, the caller does th
     CHECK(order.size() == 100);
 }
 
-TEST_CASE("an exception comes through after all threads have ended, and stops the rest of the work") {
+TEST_CASE(
+    "an exception comes through after all threads have ended, and stops the rest of the work") {
     for (const unsigned threads : {1u, 2u, 8u}) {
         std::atomic<std::size_t> visits{0};
         std::atomic<int> running{0};
@@ -63,7 +65,8 @@ TEST_CASE("an exception comes through after all threads have ended, and stops th
 }
 
 TEST_CASE("of several exceptions one comes through") {
-    CHECK_THROWS_AS(parallel_for(100, 8, 1, [](std::size_t) { throw std::out_of_range("each"); }), std::out_of_range);
+    CHECK_THROWS_AS(parallel_for(100, 8, 1, [](std::size_t) { throw std::out_of_range("each"); }),
+                    std::out_of_range);
 }
 
 }  // namespace space

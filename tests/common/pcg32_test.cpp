@@ -1,15 +1,16 @@
 #include "common/pcg32.hpp"
 
-#include <array>
-
 #include "tests/catch.hpp"
+
+#include <array>
 
 namespace space {
 
 TEST_CASE("PCG32 gives the published sequence") {
     // pcg32-demo of O'Neill's C library: seed 42, stream 54, "Round 1".
     Pcg32 random(42, 54);
-    for (const std::uint32_t expected : {0xa15c02b7u, 0x7b47f409u, 0xba1d3330u, 0x83d2f293u, 0xbfa4784bu, 0xcbed606eu})
+    for (const std::uint32_t expected :
+         {0xa15c02b7u, 0x7b47f409u, 0xba1d3330u, 0x83d2f293u, 0xbfa4784bu, 0xcbed606eu})
         CHECK(random.next() == expected);
 }
 
@@ -26,7 +27,8 @@ TEST_CASE("uniform numbers are multiples of 2^-24 and 2^-53 in [0, 1)") {
     for (int i = 0; i < 100'000; ++i) {
         const float f = random.uniform();
         const double d = random.uniform_double();
-        if (!(f >= 0.0f && f < 1.0f && d >= 0.0 && d < 1.0)) FAIL("outside [0, 1): " << f << ", " << d);
+        if (!(f >= 0.0f && f < 1.0f && d >= 0.0 && d < 1.0))
+            FAIL("outside [0, 1): " << f << ", " << d);
         sum += f + d;
     }
     CHECK(sum == Approx(100'000).epsilon(0.01));
@@ -44,9 +46,11 @@ TEST_CASE("below(n) gives each of 0 .. n - 1 about as often") {
     Pcg32 random(3);
     std::array<int, 6> counts{};
     for (int i = 0; i < 60'000; ++i) ++counts.at(random.below(6));
-    for (const int count : counts) CHECK(std::abs(count - 10'000) < 500);  // five standard deviations are 456
+    for (const int count : counts)
+        CHECK(std::abs(count - 10'000) < 500);  // five standard deviations are 456
     CHECK(random.below(1) == 0);
-    // 3 * 2^30: numbers below 2^30 would come twice as often if the product's remainder were not rejected.
+    // 3 * 2^30: numbers below 2^30 would come twice as often if the product's remainder were not
+    // rejected.
     int low = 0;
     for (int i = 0; i < 30'000; ++i) low += random.below(3u << 30) < (1u << 30);
     CHECK(std::abs(low - 10'000) < 500);

@@ -1,19 +1,20 @@
 // What every main() and every list of figures relies on: errors, figures, progress.
-#include <new>
-
+#include "common/parallel.hpp"
 #include "common/program/error.hpp"
 #include "common/program/figure.hpp"
-#include "common/parallel.hpp"
 #include "common/program/progress.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
+
+#include <new>
 
 namespace space {
 
 TEST_CASE("an error that a user can cause becomes one line on stderr and its exit code") {
     const auto run = [](int (*body)(int, char**)) {
         int code = 0;
-        const std::string line = written_to(2, [&] { code = run_program("prog", body, 0, nullptr); });
+        const std::string line =
+            written_to(2, [&] { code = run_program("prog", body, 0, nullptr); });
         return std::pair(code, line);
     };
     CHECK(run([](int, char**) { return 0; }) == std::pair(0, std::string()));
@@ -22,7 +23,8 @@ TEST_CASE("an error that a user can cause becomes one line on stderr and its exi
           std::pair(2, std::string("prog: no such option\n")));
     CHECK(run([](int, char**) -> int { throw input_error("a.obj:3: no"); }) ==
           std::pair(3, std::string("prog: a.obj:3: no\n")));
-    CHECK(run([](int, char**) -> int { throw output_error("full"); }) == std::pair(4, std::string("prog: full\n")));
+    CHECK(run([](int, char**) -> int { throw output_error("full"); }) ==
+          std::pair(4, std::string("prog: full\n")));
     CHECK(run([](int, char**) -> int { throw std::bad_alloc(); }) ==
           std::pair(70, std::string("prog: out of memory\n")));
     CHECK(run([](int, char**) -> int { throw std::logic_error("x"); }) ==
@@ -31,8 +33,9 @@ TEST_CASE("an error that a user can cause becomes one line on stderr and its exi
 
 namespace {
 std::string made;
-const std::vector<Figure> figures{{"fig_00_01", FigureKind::drawing, [](const Options&) { made += "1"; }},
-                                  {"fig_00_02", FigureKind::chart, [](const Options&) { made += "2"; }}};
+const std::vector<Figure> figures{
+    {"fig_00_01", FigureKind::drawing, [](const Options&) { made += "1"; }},
+    {"fig_00_02", FigureKind::chart, [](const Options&) { made += "2"; }}};
 int make(const std::string& id) {
     made.clear();
     Options options;
@@ -51,7 +54,8 @@ TEST_CASE("a figure is made by its id, or all of them; an unknown id is refused 
         FAIL("no error");
     } catch (const Error& error) {
         CHECK(error.code() == ExitCode::usage);
-        CHECK(std::string(error.what()) == "--figure fig_00_03: no such figure; there are: fig_00_01 fig_00_02 all");
+        CHECK(std::string(error.what()) ==
+              "--figure fig_00_03: no such figure; there are: fig_00_01 fig_00_02 all");
     }
     CHECK(made.empty());
 }

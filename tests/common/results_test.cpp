@@ -1,12 +1,13 @@
 #include "common/program/results.hpp"
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
 
 namespace space {
 
@@ -14,11 +15,12 @@ TEST_CASE("the results file holds every answer, the machine and the date") {
     const TemporaryDirectory directory;
     const auto file = directory.path() / "out" / "results.json";
     ::setenv("SOURCE_DATE_EPOCH", "951782400", 1);  // 2000-02-29 00:00:00 UTC
-    write_results(file, {.chapter = "ch00_test",
-                         .small = true,
-                         .answers = {{"H1", Verdict::confirmed, "slope 1.0", "soup", "0.9 .. 1.1"},
-                                     {"H2", Verdict::refuted, "a \"quote\" and Möller", "bunny", "r"},
-                                     {"P1", Verdict::depends, "", "", ""}}});
+    write_results(file,
+                  {.chapter = "ch00_test",
+                   .small = true,
+                   .answers = {{"H1", Verdict::confirmed, "slope 1.0", "soup", "0.9 .. 1.1"},
+                               {"H2", Verdict::refuted, "a \"quote\" and Möller", "bunny", "r"},
+                               {"P1", Verdict::depends, "", "", ""}}});
     ::unsetenv("SOURCE_DATE_EPOCH");
 
     const auto json = nlohmann::json::parse(read_file(file));
@@ -53,7 +55,8 @@ TEST_CASE("today is a date") {
 }
 
 TEST_CASE("results that cannot be written are an error") {
-    CHECK_THROWS_AS(write_results("/proc/none/results.json", {.chapter = "x", .answers = {}}), Error);
+    CHECK_THROWS_AS(write_results("/proc/none/results.json", {.chapter = "x", .answers = {}}),
+                    Error);
 }
 
 }  // namespace space

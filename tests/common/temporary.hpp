@@ -1,5 +1,6 @@
 /// @file
-/// What tests of files and programs need: a directory of their own, a child process, what went to a stream.
+/// What tests of files and programs need: a directory of their own, a child process, what went to a
+/// stream.
 #pragma once
 
 #include <sys/wait.h>
@@ -32,7 +33,9 @@ class TemporaryDirectory {
     /// Files and directories in it, at any depth.
     std::size_t entries() const {
         std::size_t count = 0;
-        for ([[maybe_unused]] const auto& entry : std::filesystem::recursive_directory_iterator(path_)) ++count;
+        for ([[maybe_unused]] const auto& entry :
+             std::filesystem::recursive_directory_iterator(path_))
+            ++count;
         return count;
     }
 

@@ -1,12 +1,12 @@
-/// Runs the program of each chapter that is here with --small and looks at the answers that it writes; looks at the
-/// committed answers of the last full run too. Prints a line per fault.
-/// Run   ledger_check ROOT PROGRAMS OUT
+/// Runs the program of each chapter that is here with --small and looks at the answers that it
+/// writes; looks at the committed answers of the last full run too. Prints a line per fault. Run
+/// ledger_check ROOT PROGRAMS OUT
+#include "common/program/error.hpp"
+#include "docs/ledger.hpp"
+
 #include <fmt/format.h>
 
 #include <cstdlib>
-
-#include "common/program/error.hpp"
-#include "docs/ledger.hpp"
 
 namespace {
 
@@ -34,11 +34,13 @@ int check(int argc, char** argv) {
         ++chapters;
         const fs::path folder = out / chapter.folder;
         fs::remove_all(folder);
-        const std::string command = fmt::format("\"{}\" --small --out \"{}\" > /dev/null",
-                                                (programs / chapter.folder).string(), folder.string());
+        const std::string command =
+            fmt::format("\"{}\" --small --out \"{}\" > /dev/null",
+                        (programs / chapter.folder).string(), folder.string());
         if (std::system(command.c_str()) != 0) throw input_error(fmt::format("{} failed", command));
         look(chapter.number, folder / "results.json");
-        look(chapter.number, root / fmt::format("figures/measured/ch{:02}_results.json", chapter.number));
+        look(chapter.number,
+             root / fmt::format("figures/measured/ch{:02}_results.json", chapter.number));
     }
     fmt::print("{} chapters here, {} faults\n", chapters, wrong);
     return static_cast<int>(wrong == 0 ? ExitCode::ok : ExitCode::wrong_answer);

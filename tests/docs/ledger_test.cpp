@@ -1,29 +1,33 @@
 #include "docs/ledger.hpp"
 
-#include <algorithm>
-#include <set>
-
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/results.hpp"
 #include "tests/catch.hpp"
+
+#include <algorithm>
+#include <set>
 
 using namespace space;
 using namespace space::docs;
 
 namespace {
 
-const std::vector<Claim> claims{{.id = "H1", .source = "S", .note = "", .text = "linear", .chapters = {1}, .how = ""},
-                                {.id = "P6", .source = "S", .note = "", .text = "6T", .chapters = {4, 7}, .how = ""},
-                                {.id = "H4", .source = "S", .note = "", .text = "log n", .chapters = {3}, .how = ""}};
+const std::vector<Claim> claims{
+    {.id = "H1", .source = "S", .note = "", .text = "linear", .chapters = {1}, .how = ""},
+    {.id = "P6", .source = "S", .note = "", .text = "6T", .chapters = {4, 7}, .how = ""},
+    {.id = "H4", .source = "S", .note = "", .text = "log n", .chapters = {3}, .how = ""}};
 
 Answers good() {
-    return {
-        .chapter = "ch01",
-        .machine = "m",
-        .date = "d",
-        .small = false,
-        .answers = {{.claim = "H1", .verdict = "confirmed", .measured = "1.0", .scene = "soup", .rule = "0.9 .. 1.1"}}};
+    return {.chapter = "ch01",
+            .machine = "m",
+            .date = "d",
+            .small = false,
+            .answers = {{.claim = "H1",
+                         .verdict = "confirmed",
+                         .measured = "1.0",
+                         .scene = "soup",
+                         .rule = "0.9 .. 1.1"}}};
 }
 
 }  // namespace
@@ -78,20 +82,25 @@ TEST_CASE("what a program writes is what the ledger reads") {
     const auto file = std::filesystem::temp_directory_path() / "splitting_space_ledger_test.json";
     Results results{.chapter = "ch01_naive_ray_tracing", .small = true, .answers = {}};
     for (const Verdict verdict : {Verdict::confirmed, Verdict::refuted, Verdict::depends})
-        results.answers.push_back(
-            {.claim = "H1", .verdict = verdict, .measured = "\"1\" < 2", .scene = "s", .rule = "r"});
+        results.answers.push_back({.claim = "H1",
+                                   .verdict = verdict,
+                                   .measured = "\"1\" < 2",
+                                   .scene = "s",
+                                   .rule = "r"});
     write_results(file, results);
     const Answers answers = read_answers(file);
     std::filesystem::remove(file);
     REQUIRE(answers.answers.size() == 3);
     CHECK(answers.small);
     CHECK(answers.answers[0].measured == "\"1\" < 2");
-    CHECK(faults(claims, 1, answers).size() == 1);  // three answers to one claim; all three words are verdicts
+    CHECK(faults(claims, 1, answers).size() ==
+          1);  // three answers to one claim; all three words are verdicts
 }
 
 TEST_CASE("a results file that is no JSON, or lacks a field, is one line that names it") {
     const std::string text = GENERATE("", "{", "[]", "{\"chapter\": 1}");
-    const auto file = std::filesystem::temp_directory_path() / "splitting_space_broken_results.json";
+    const auto file =
+        std::filesystem::temp_directory_path() / "splitting_space_broken_results.json";
     write_file(file, text);
     try {
         read_answers(file);
@@ -107,7 +116,8 @@ TEST_CASE("the ledger holds every claim of the sources once, each with a chapter
     const auto chapters = read_chapters(root);
     CHECK(chapters.size() == 12);
     std::set<std::string> expected, found;
-    for (const auto& [letter, last] : {std::pair{'H', 15}, {'P', 17}, {'L', 10}, {'J', 7}, {'O', 14}})
+    for (const auto& [letter, last] :
+         {std::pair{'H', 15}, {'P', 17}, {'L', 10}, {'J', 7}, {'O', 14}})
         for (int i = 1; i <= last; ++i) expected.insert(letter + std::to_string(i));
     for (const Claim& claim : read_claims(root / "docs/claims.json")) {
         CHECK(found.insert(claim.id).second);

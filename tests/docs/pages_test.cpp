@@ -1,12 +1,12 @@
 #include "docs/pages.hpp"
 
-#include <filesystem>
-
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "docs/finish.hpp"
 #include "docs/search_text.hpp"
 #include "tests/catch.hpp"
+
+#include <filesystem>
 
 using namespace space;
 using namespace space::docs;
@@ -15,31 +15,37 @@ namespace {
 
 /// A folder of its own, gone at the end.
 struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / "splitting_space_pages_test";
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / "splitting_space_pages_test";
     Folder() { std::filesystem::create_directories(path); }
     ~Folder() { std::filesystem::remove_all(path); }
 };
 
 std::string picture(const std::string& name) {
-    return "<object type=\"image/svg+xml\" data=\"" + name + "\" style=\"pointer-events: none;\">" + name + "</object>";
+    return "<object type=\"image/svg+xml\" data=\"" + name + "\" style=\"pointer-events: none;\">" +
+           name + "</object>";
 }
 
 }  // namespace
 
 TEST_CASE("a drawing becomes part of its page, without the XML declaration") {
     const Folder folder;
-    write_file(folder.path / "a.svg", "<?xml version=\"1.0\"?>\n<svg id=\"a\"><g id=\"a-x\"/></svg>\n");
+    write_file(folder.path / "a.svg",
+               "<?xml version=\"1.0\"?>\n<svg id=\"a\"><g id=\"a-x\"/></svg>\n");
     CHECK(inline_drawings("<p>" + picture("a.svg") + "</p>", folder.path) ==
           "<p><svg id=\"a\"><g id=\"a-x\"/></svg>\n</p>");
 }
 
 TEST_CASE("a drawing with steps is followed by the list of what they tell, in their order") {
     const Folder folder;
-    write_file(folder.path / "a.svg",
-               "<svg id=\"a\"><g data-first=\"1\">\n<desc>then</desc>\n</g>\n<g data-first=\"0\" data-last=\"0\" "
-               "display=\"none\">\n<desc>first &lt;</desc>\n</g>\n<g data-first=\"1\">\n</g>\n</svg>\n");
+    write_file(
+        folder.path / "a.svg",
+        "<svg id=\"a\"><g data-first=\"1\">\n<desc>then</desc>\n</g>\n<g data-first=\"0\" "
+        "data-last=\"0\" "
+        "display=\"none\">\n<desc>first &lt;</desc>\n</g>\n<g data-first=\"1\">\n</g>\n</svg>\n");
     const std::string page = inline_drawings(picture("a.svg"), folder.path);
-    CHECK(page.ends_with("</svg>\n<ol class=\"steps\">\n<li>first &lt;</li>\n<li>then</li>\n</ol>\n"));
+    CHECK(page.ends_with(
+        "</svg>\n<ol class=\"steps\">\n<li>first &lt;</li>\n<li>then</li>\n</ol>\n"));
 }
 
 TEST_CASE("a missing drawing, and two drawings with an id in common, are errors") {
@@ -54,22 +60,26 @@ TEST_CASE("a missing drawing, and two drawings with an id in common, are errors"
 TEST_CASE("quoted code loses the indentation that its lines share, and only that") {
     const std::string open = "<div class=\"fragment\">", close = "</div><!-- fragment -->",
                       line = "<div class=\"line\">";
-    CHECK(dedent_fragments(open + line + "    if (x)</div>\n" + line + "</div>\n" + line + "        y();</div>\n" +
-                           close) ==
+    CHECK(dedent_fragments(open + line + "    if (x)</div>\n" + line + "</div>\n" + line +
+                           "        y();</div>\n" + close) ==
           open + line + "if (x)</div>\n" + line + "</div>\n" + line + "    y();</div>\n" + close);
     CHECK(dedent_fragments(open + line + "a</div>" + line + "  b</div>" + close) ==
           open + line + "a</div>" + line + "  b</div>" + close);
     const std::string comment = "<span class=\"comment\">", end = "</span></div>\n";
-    CHECK(dedent_fragments(open + line + comment + "    // why" + end + line + comment + "</span>    x();</div>\n" + close) ==
+    CHECK(dedent_fragments(open + line + comment + "    // why" + end + line + comment +
+                           "</span>    x();</div>\n" + close) ==
           open + line + comment + "// why" + end + line + "x();</div>\n" + close);
     CHECK(dedent_fragments("<p>  none</p>") == "<p>  none</p>");
 }
 
 TEST_CASE("a page is found by its sections, with the text that a reader sees") {
     const auto entries = search_entries(
-        "<div class=\"title\">Naive &amp; slow</div></div>\n<div class=\"contents\">\n<p>A <b>r</b>ay.</p>"
-        "<svg><text>hidden</text></svg><h1><a class=\"anchor\" id=\"idea\"></a>\nIdea</h1><p>M\u00f6ller</p>"
-        "<h2 class=\"memtitle\"><span class=\"permalink\"><a href=\"#a1\">&#9670;&nbsp;</a></span>hit()</h2><p>x &lt; "
+        "<div class=\"title\">Naive &amp; slow</div></div>\n<div class=\"contents\">\n<p>A "
+        "<b>r</b>ay.</p>"
+        "<svg><text>hidden</text></svg><h1><a class=\"anchor\" "
+        "id=\"idea\"></a>\nIdea</h1><p>M\u00f6ller</p>"
+        "<h2 class=\"memtitle\"><span class=\"permalink\"><a "
+        "href=\"#a1\">&#9670;&nbsp;</a></span>hit()</h2><p>x &lt; "
         "y</p>"
         "</div><!-- contents -->",
         "p.html");

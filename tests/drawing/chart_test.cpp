@@ -1,15 +1,15 @@
 #include "common/program/chart.hpp"
 
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/svg.hpp"
+#include "tests/catch.hpp"
+
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-
-#include "common/program/error.hpp"
-#include "common/program/file.hpp"
-#include "common/program/svg.hpp"
-#include "tests/catch.hpp"
 
 using namespace space;
 namespace fs = std::filesystem;
@@ -62,8 +62,9 @@ TEST_CASE("the data file names the machine and the date, and holds every point")
     ::unsetenv("SOURCE_DATE_EPOCH");
     CHECK(contains(csv, "# fig_99_01: Time against triangles\n# machine: "));
     CHECK(contains(csv, "\n# date: 1970-01-01\nseries,triangles,\"time, ms\"\n"));
-    CHECK(
-        contains(csv, "\nnaive,1000,1.5\nnaive,10000,15\n\"other, faster\",1000,0.5\n\"other, faster\",10000,0.75\n"));
+    CHECK(contains(csv,
+                   "\nnaive,1000,1.5\nnaive,10000,15\n\"other, faster\",1000,0.5\n\"other, "
+                   "faster\",10000,0.75\n"));
 }
 
 TEST_CASE("bars are told by category in the data file") {
@@ -78,12 +79,13 @@ TEST_CASE("bars are told by category in the data file") {
 }
 
 TEST_CASE("the labels of points stand in the data file") {
-    const Chart chart{.id = "c",
-                      .title = "",
-                      .x_label = "x",
-                      .y_label = "y",
-                      .kind = ChartKind::points,
-                      .series = {{.name = "tests", .x = {1, 2}, .y = {3, 4}, .labels = {"plain", "a, b"}}}};
+    const Chart chart{
+        .id = "c",
+        .title = "",
+        .x_label = "x",
+        .y_label = "y",
+        .kind = ChartKind::points,
+        .series = {{.name = "tests", .x = {1, 2}, .y = {3, 4}, .labels = {"plain", "a, b"}}}};
     CHECK(contains(chart_csv(chart), "\nseries,x,y,label\ntests,1,3,plain\ntests,2,4,\"a, b\"\n"));
 }
 
@@ -97,12 +99,14 @@ TEST_CASE("a chart has the drawings' palette, style and ids") {
     const std::string svg = read_file(folder.path / "fig_99_01.svg");
     CHECK(svg.starts_with(svg_opening("fig_99_01", "Time against triangles", 640, 420)));
     CHECK(svg.ends_with("</svg>\n"));
-    for (const char* text : {">naive</text>", ">slope 1.00</text>", ">other, faster</text>", ">triangles</text>",
-                             ">time, ms</text>", ">1 K</text>", ">10 K</text>"})
+    for (const char* text :
+         {">naive</text>", ">slope 1.00</text>", ">other, faster</text>", ">triangles</text>",
+          ">time, ms</text>", ">1 K</text>", ">10 K</text>"})
         CHECK(contains(svg, text));
     CHECK(contains(svg, "stroke='" + std::string(svg_color(Ink::blue)) + "'"));
     CHECK(contains(svg, "stroke='" + std::string(svg_color(Ink::vermillion)) + "'"));
-    for (const char* foreign : {"rgb(", "\"black\"", "\"white\"", "id='gp", "'#gp", "gnuplot", "<filter"})
+    for (const char* foreign :
+         {"rgb(", "\"black\"", "\"white\"", "id='gp", "'#gp", "gnuplot", "<filter"})
         CHECK_FALSE(contains(svg, foreign));
 }
 

@@ -1,11 +1,11 @@
 #include "common/program/svg.hpp"
 
+#include "common/program/image.hpp"
+#include "tests/catch.hpp"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-
-#include "common/program/image.hpp"
-#include "tests/catch.hpp"
 
 using namespace space;
 
@@ -65,7 +65,8 @@ TEST_CASE("markup: italics, subscripts, and back to the base line") {
     svg.text({0, 0}, "*t*_{min} to *t*_1", {.size = 20});
     CHECK(contains(
         svg.document(),
-        "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">min</tspan><tspan dy=\"-5\"> to </tspan>"
+        "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">min</tspan><tspan "
+        "dy=\"-5\"> to </tspan>"
         "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">1</tspan></text>"));
 }
 
@@ -97,7 +98,9 @@ TEST_CASE("every colour of an element is one that the style block maps to a vari
     }
 }
 
-TEST_CASE("the page's light or dark class wins over the system's setting, and styles stay inside the figure") {
+TEST_CASE(
+    "the page's light or dark class wins over the system's setting, and styles stay inside the "
+    "figure") {
     const std::string document = Svg("f", "", 10, 10).document();
     const auto system = document.find("@media (prefers-color-scheme:dark){svg.book-figure{");
     const auto light = document.find("html.light-mode svg.book-figure{");
@@ -114,7 +117,8 @@ TEST_CASE("an arrow ends in a head whose tip is the line's end") {
     Svg svg("f", "", 100, 100);
     svg.line({0, 50}, {100, 50}, {.stroke = Ink::blue, .arrow = true});
     CHECK(contains(svg.document(), "<polyline points=\"0,50 90.4,50\""));
-    CHECK(contains(svg.document(), "<polygon points=\"100,50 88,54.5 88,45.5\" fill=\"#0072b2\"/>"));
+    CHECK(
+        contains(svg.document(), "<polygon points=\"100,50 88,54.5 88,45.5\" fill=\"#0072b2\"/>"));
 
     Svg point("f", "", 100, 100);
     point.line({5, 5}, {5, 5}, {.arrow = true});  // no direction: no head, and no NaN
@@ -138,7 +142,9 @@ TEST_CASE("the same calls give the same bytes") {
     const auto draw = [] {
         Svg svg("f", "title", 640, 400);
         for (int i = 0; i < 100; ++i)
-            svg.circle({320.0f + 100.0f * std::cos(0.1f * static_cast<float>(i)), 0.333f * static_cast<float>(i)}, 3);
+            svg.circle({320.0f + 100.0f * std::cos(0.1f * static_cast<float>(i)),
+                        0.333f * static_cast<float>(i)},
+                       3);
         return svg.document();
     };
     CHECK(draw() == draw());
@@ -151,7 +157,10 @@ TEST_CASE("of steps, those that end before the drawing does are hidden where no 
     svg.begin_step(2);
     svg.end_group();
     const std::string text = svg.document();
-    CHECK(text.find("<g data-first=\"0\" data-last=\"1\" display=\"none\">\n<desc>a &lt; b</desc>\n</g>") != text.npos);
+    CHECK(
+        text.find(
+            "<g data-first=\"0\" data-last=\"1\" display=\"none\">\n<desc>a &lt; b</desc>\n</g>") !=
+        text.npos);
     CHECK(text.find("<g data-first=\"2\">\n</g>") != text.npos);
 }
 

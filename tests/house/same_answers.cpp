@@ -1,15 +1,15 @@
-/// Prints fingerprints of scenes, camera rays, hits and pictures. Compiled with several options and compilers; a test
-/// compares what they print, line by line.
+/// Prints fingerprints of scenes, camera rays, hits and pictures. Compiled with several options and
+/// compilers; a test compares what they print, line by line.
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "common/scene.hpp"
+
 #include <fmt/format.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
-#include "common/scene.hpp"
 
 namespace {
 
@@ -35,15 +35,19 @@ int main() {
         std::vector<glm::vec3> directions, hits;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const space::Ray ray = space::camera_ray(scene.camera, frame, x + 0.5, y + 0.5, width, height);
+                const space::Ray ray =
+                    space::camera_ray(scene.camera, frame, x + 0.5, y + 0.5, width, height);
                 const auto hit = space::closest_hit(naive, ray);
                 directions.push_back(ray.direction);
                 if (hit) hits.push_back({hit->t, hit->u, hit->v});
             }
-        const space::Rendering picture = space::render(scene, naive, {.width = width, .height = height});
-        fmt::print("{}: vertices {:016x} faces {:016x} colors {:016x} rays {:016x} hits {} {:016x} picture {:016x}\n",
-                   recipe.name, fingerprint(scene.mesh.vertices), fingerprint(scene.mesh.faces),
-                   fingerprint(scene.colors), fingerprint(directions), hits.size(), fingerprint(hits),
-                   fingerprint(space::srgb_bytes(picture.image)));
+        const space::Rendering picture =
+            space::render(scene, naive, {.width = width, .height = height});
+        fmt::print(
+            "{}: vertices {:016x} faces {:016x} colors {:016x} rays {:016x} hits {} {:016x} "
+            "picture {:016x}\n",
+            recipe.name, fingerprint(scene.mesh.vertices), fingerprint(scene.mesh.faces),
+            fingerprint(scene.colors), fingerprint(directions), hits.size(), fingerprint(hits),
+            fingerprint(space::srgb_bytes(picture.image)));
     }
 }

@@ -29,7 +29,9 @@ struct DropsATriangle {
 int lab(int argc, char** argv) {
     using space::MollerTrumbore, space::Naive, space::build_structure;
     const std::vector<space::Structure> structures{
-        {"naive", "the trusted one", {{"moller-trumbore", "", build_structure<Naive<MollerTrumbore>>}}},
+        {"naive",
+         "the trusted one",
+         {{"moller-trumbore", "", build_structure<Naive<MollerTrumbore>>}}},
         {"broken", "loses triangle 7", {{"moller-trumbore", "", build_structure<DropsATriangle>}}},
     };
     return space::run_lab(structures, argc, argv);

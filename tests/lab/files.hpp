@@ -2,6 +2,9 @@
 /// The lab's files from the user's side.
 #pragma once
 
+#include "chapters/ch12_comparison/rays.hpp"
+#include "common/program/file.hpp"
+
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -9,9 +12,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "chapters/ch12_comparison/rays.hpp"
-#include "common/program/file.hpp"
 
 namespace space {
 
@@ -27,7 +27,8 @@ inline void write_rays(const std::filesystem::path& file, std::span<const Ray> r
 
 inline std::vector<HitRecord> read_hits(const std::filesystem::path& file) {
     const std::string bytes = read_file(file);
-    if (bytes.size() % sizeof(HitRecord) != 0) throw std::runtime_error("a hits file without whole records");
+    if (bytes.size() % sizeof(HitRecord) != 0)
+        throw std::runtime_error("a hits file without whole records");
     std::vector<HitRecord> hits(bytes.size() / sizeof(HitRecord));
     std::memcpy(hits.data(), bytes.data(), bytes.size());
     return hits;

@@ -1,19 +1,19 @@
 // The lab from outside, as a program that reads and writes files, and its parts from inside.
 #include "chapters/ch12_comparison/lab.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
-
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/mesh.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
 #include "tests/lab/files.hpp"
 #include "tests/lab/process.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <map>
 
 using namespace space;
 
@@ -27,7 +27,8 @@ TriangleMesh row_of_triangles(std::uint32_t count) {
     TriangleMesh mesh;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Point3 corner(2.0f * static_cast<float>(i), 0.0f, 0.0f);
-        mesh.vertices.insert(mesh.vertices.end(), {corner, corner + Vector3(1, 0, 0), corner + Vector3(0, 1, 0)});
+        mesh.vertices.insert(mesh.vertices.end(),
+                             {corner, corner + Vector3(1, 0, 0), corner + Vector3(0, 1, 0)});
         mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return mesh;
@@ -35,7 +36,8 @@ TriangleMesh row_of_triangles(std::uint32_t count) {
 
 /// Straight down on triangle i of the row, from height 1, hit at u = v = 0.25.
 Ray ray_down(std::uint32_t i) {
-    return {.origin = {2.0f * static_cast<float>(i) + 0.25f, 0.25f, 1.0f}, .direction = {0.0f, 0.0f, -1.0f}};
+    return {.origin = {2.0f * static_cast<float>(i) + 0.25f, 0.25f, 1.0f},
+            .direction = {0.0f, 0.0f, -1.0f}};
 }
 
 /// Triangles of very different sizes, in and about the unit cube.
@@ -46,7 +48,8 @@ TriangleMesh soup(std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const float size = std::ldexp(1.0f, -static_cast<int>(random.below(6)));
         const Point3 corner = point();
-        mesh.vertices.insert(mesh.vertices.end(), {corner, corner + size * point(), corner + size * point()});
+        mesh.vertices.insert(mesh.vertices.end(),
+                             {corner, corner + size * point(), corner + size * point()});
         mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return mesh;
@@ -58,7 +61,8 @@ std::vector<Ray> random_rays(std::size_t count) {
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {
         ray.origin = 3.0f * point() - 1.0f;
-        ray.direction = std::ldexp(1.0f, static_cast<int>(random.below(9)) - 4) * (point() - ray.origin);
+        ray.direction =
+            std::ldexp(1.0f, static_cast<int>(random.below(9)) - 4) * (point() - ray.origin);
         if (random.below(4) == 0) ray.tmin = random.uniform();
         if (random.below(4) == 0) ray.tmax = ray.tmin + random.uniform();
     }
@@ -77,12 +81,14 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
     write_ply(bench / "soup.ply", mesh);
     const std::vector<Ray> rays = random_rays(2000);
     write_rays(bench / "rays", rays);
-    const std::string files = fmt::format("--mesh {} --rays {} --hits {} --repeat 1", (bench / "soup.ply").string(),
-                                          (bench / "rays").string(), (bench / "hits").string());
+    const std::string files =
+        fmt::format("--mesh {} --rays {} --hits {} --repeat 1", (bench / "soup.ply").string(),
+                    (bench / "rays").string(), (bench / "hits").string());
     const Naive<> naive = Naive<>::build(mesh.triangles());
     const auto in_float = Naive<BasicMollerTrumbore<float>>::build(mesh.triangles());
 
-    REQUIRE(run(lab + "--structure naive --triangle-test moller-trumbore-float " + files).code == 0);
+    REQUIRE(run(lab + "--structure naive --triangle-test moller-trumbore-float " + files).code ==
+            0);
     const std::vector<HitRecord> float_hits = read_hits(bench / "hits");
     REQUIRE(float_hits.size() == rays.size());
     REQUIRE(run(lab + "--structure naive --query closest " + files).code == 0);
@@ -95,8 +101,8 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::optional<Hit> hit = closest_hit(naive, rays[i]);
         hits += hit.has_value();
-        const HitRecord expected =
-            hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle} : HitRecord{infinity, 0.0f, 0.0f, 0xFFFFFFFF};
+        const HitRecord expected = hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle}
+                                       : HitRecord{infinity, 0.0f, 0.0f, 0xFFFFFFFF};
         CHECK(closest[i] == expected);
         CHECK(float_hits[i] == HitRecord::closest(closest_hit(in_float, rays[i])));
         CHECK(any[i] == (hit ? HitRecord{0.0f, 0.0f, 0.0f, 0xFFFFFFFE} : expected));
@@ -109,14 +115,16 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
 TEST_CASE("t is in units of the direction, and the interval is closed") {
     const Workbench bench;
     write_ply(bench / "row.ply", row_of_triangles(1));
-    Ray twice = ray_down(0), short_of = ray_down(0), just_so = ray_down(0), from_there = ray_down(0);
+    Ray twice = ray_down(0), short_of = ray_down(0), just_so = ray_down(0),
+        from_there = ray_down(0);
     twice.direction *= 2.0f;
     short_of.tmax = std::nextafter(1.0f, 0.0f);
     just_so.tmax = 1.0f;
     from_there.tmin = 1.0f;
     write_rays(bench / "rays", std::array{twice, short_of, just_so, from_there});
-    REQUIRE(run(fmt::format("{} --mesh {} --rays {} --hits {} --structure naive", lab, (bench / "row.ply").string(),
-                            (bench / "rays").string(), (bench / "hits").string()))
+    REQUIRE(run(fmt::format("{} --mesh {} --rays {} --hits {} --structure naive", lab,
+                            (bench / "row.ply").string(), (bench / "rays").string(),
+                            (bench / "hits").string()))
                 .code == 0);
     const std::vector<HitRecord> hits = read_hits(bench / "hits");
     REQUIRE(hits.size() == 4);
@@ -140,13 +148,15 @@ TEST_CASE("rays that are not valid are counted misses") {
     write_rays(bench / "rays", rays);
     for (const char* query : {"closest", "any"}) {
         const Ended ended =
-            run(fmt::format("{} --mesh {} --rays {} --hits {} --structure naive --check --query {}", lab,
-                            (bench / "row.ply").string(), (bench / "rays").string(), (bench / "hits").string(), query));
+            run(fmt::format("{} --mesh {} --rays {} --hits {} --structure naive --check --query {}",
+                            lab, (bench / "row.ply").string(), (bench / "rays").string(),
+                            (bench / "hits").string(), query));
         CHECK(ended.code == 0);
         CHECK(ended.out.find("7 rays, 6 of them not valid") != std::string::npos);
         const std::vector<HitRecord> hits = read_hits(bench / "hits");
         CHECK(hits[0].is_hit());
-        for (std::size_t i = 1; i < hits.size(); ++i) CHECK(hits[i] == HitRecord{infinity, 0.0f, 0.0f, 0xFFFFFFFF});
+        for (std::size_t i = 1; i < hits.size(); ++i)
+            CHECK(hits[i] == HitRecord{infinity, 0.0f, 0.0f, 0xFFFFFFFF});
     }
 }
 
@@ -161,10 +171,11 @@ TEST_CASE("hits have the same bytes for any number of threads") {
             std::map<int, std::string> bytes;
             for (const int threads : {1, 2, 7}) {
                 const std::string hits = (bench / "hits").string();
-                REQUIRE(
-                    run(fmt::format("{} --mesh {} {} --structure naive --query {} --repeat 1 --threads {} --hits {}",
-                                    lab, (bench / "soup.ply").string(), source, query, threads, hits))
-                        .code == 0);
+                REQUIRE(run(fmt::format("{} --mesh {} {} --structure naive --query {} --repeat 1 "
+                                        "--threads {} --hits {}",
+                                        lab, (bench / "soup.ply").string(), source, query, threads,
+                                        hits))
+                            .code == 0);
                 bytes[threads] = read_file(hits);
             }
             CHECK(bytes[1].size() >= 1000 * sizeof(HitRecord));
@@ -177,7 +188,8 @@ TEST_CASE("diffuse rays leave the hit surfaces on the camera's side with the cos
     const TriangleMesh mesh = soup(100);
     const std::vector<Triangle> triangles = mesh.triangles();
     const Naive<> naive = Naive<>::build(triangles);
-    const std::vector<Ray> camera = camera_rays({.eye = {0.5f, 0.5f, 4.0f}, .target = Point3(0.5f)}, 64, 64);
+    const std::vector<Ray> camera =
+        camera_rays({.eye = {0.5f, 0.5f, 4.0f}, .target = Point3(0.5f)}, 64, 64);
     std::vector<HitRecord> hits(camera.size());
     trace<NoCounts>(naive, {camera, hits});
     std::vector<std::size_t> starts;
@@ -188,7 +200,8 @@ TEST_CASE("diffuse rays leave the hit surfaces on the camera's side with the cos
     constexpr std::size_t count = 20'000;
     const std::vector<Ray> rays = diffuse_rays(triangles, camera, hits, count, 5);
     REQUIRE(rays.size() == count);
-    CHECK(diffuse_rays(triangles, camera, hits, count, 6).front().direction != rays.front().direction);
+    CHECK(diffuse_rays(triangles, camera, hits, count, 6).front().direction !=
+          rays.front().direction);
     double sum_of_cosines = 0.0;
     std::size_t self_hits = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -197,26 +210,33 @@ TEST_CASE("diffuse rays leave the hit surfaces on the camera's side with the cos
         Double3 n = glm::normalize(normal(triangle));
         if (glm::dot(n, Double3(camera[start].direction)) > 0.0) n = -n;
         const double cosine = glm::dot(n, Double3(rays[i].direction));
-        CHECK(cosine >= -1e-6);  // a direction of length 1, its three coordinates rounded to float: 3 * 2^-24
+        CHECK(cosine >=
+              -1e-6);  // a direction of length 1, its three coordinates rounded to float: 3 * 2^-24
         CHECK(glm::length(Double3(rays[i].direction)) == Approx(1.0).margin(1e-6));
         sum_of_cosines += cosine;
         self_hits += MollerTrumbore::intersect(rays[i], triangle).has_value();
     }
     CHECK(self_hits == 0);
-    // The cosine has mean 2/3 and variance 1/2 - 4/9 = 1/18; four standard deviations of the mean of 20,000.
+    // The cosine has mean 2/3 and variance 1/2 - 4/9 = 1/18; four standard deviations of the mean
+    // of 20,000.
     CHECK(std::abs(sum_of_cosines / count - 2.0 / 3.0) < 4.0 * std::sqrt(1.0 / 18.0 / count));
-    CHECK(diffuse_rays(triangles, camera, std::vector<HitRecord>(camera.size(), HitRecord::any(false)), 10, 1).empty());
+    CHECK(diffuse_rays(triangles, camera,
+                       std::vector<HitRecord>(camera.size(), HitRecord::any(false)), 10, 1)
+              .empty());
 }
 
 TEST_CASE("the JSON file has exactly the documented members, in order, and true counts") {
     const Workbench bench;
     write_ply(bench / "row.ply", row_of_triangles(40));
     std::vector<Ray> rays;
-    for (std::uint32_t i = 0; i < 500; ++i) rays.push_back(ray_down(i));  // those after the first forty miss
+    for (std::uint32_t i = 0; i < 500; ++i)
+        rays.push_back(ray_down(i));  // those after the first forty miss
     write_rays(bench / "rays", rays);
-    REQUIRE(run(fmt::format("{} --mesh {} --rays {} --json {} --structure naive,naive --query closest --threads 2 "
+    REQUIRE(run(fmt::format("{} --mesh {} --rays {} --json {} --structure naive,naive --query "
+                            "closest --threads 2 "
                             "--build-threads 2",
-                            lab, (bench / "row.ply").string(), (bench / "rays").string(), (bench / "json").string()))
+                            lab, (bench / "row.ply").string(), (bench / "rays").string(),
+                            (bench / "json").string()))
                 .code == 0);
     const auto json = nlohmann::ordered_json::parse(read_file(bench / "json"));
     const auto keys = [](const nlohmann::ordered_json& object) {
@@ -235,12 +255,13 @@ TEST_CASE("the JSON file has exactly the documented members, in order, and true 
                                                  {"degenerate", 0}});
     REQUIRE(json["structures"].size() == 2);
     for (const auto& structure : json["structures"]) {
-        CHECK(
-            keys(structure) ==
-            "structure build_ms trace_ms rays_per_s rays hits nodes leaves depth references bytes sah_cost node_visits "
-            "triangle_tests threads build_threads ");
+        CHECK(keys(structure) ==
+              "structure build_ms trace_ms rays_per_s rays hits nodes leaves depth references "
+              "bytes sah_cost node_visits "
+              "triangle_tests threads build_threads ");
         CHECK(structure["structure"] == "naive");
-        for (const char* time : {"build_ms", "trace_ms", "rays_per_s"}) CHECK(structure[time].is_number());
+        for (const char* time : {"build_ms", "trace_ms", "rays_per_s"})
+            CHECK(structure[time].is_number());
         for (const char* none : {"nodes", "leaves", "depth", "sah_cost", "node_visits"})
             CHECK(structure[none].is_null());
         CHECK(structure["rays"] == 500);
@@ -260,15 +281,17 @@ TEST_CASE("--check finds a broken structure, names each ray and exits with 1") {
     for (std::uint32_t i = 0; i < 40; ++i) rays.push_back(ray_down(i));
     rays.push_back(ray_down(7));
     write_rays(bench / "rays", rays);
-    const std::string files =
-        fmt::format("--mesh {} --rays {} ", (bench / "row.ply").string(), (bench / "rays").string());
+    const std::string files = fmt::format("--mesh {} --rays {} ", (bench / "row.ply").string(),
+                                          (bench / "rays").string());
 
     const Ended closest = run(broken_lab + files + "--structure all --check");
     CHECK(closest.code == 1);
-    CHECK(closest.out.find("ray 7: naive triangle 7 at t = 1 (u = 0.25, v = 0.25), broken none\n") !=
-          std::string::npos);
-    CHECK(closest.out.find("ray 40: naive triangle 7 at t = 1 (u = 0.25, v = 0.25), broken none\n") !=
-          std::string::npos);
+    CHECK(
+        closest.out.find("ray 7: naive triangle 7 at t = 1 (u = 0.25, v = 0.25), broken none\n") !=
+        std::string::npos);
+    CHECK(
+        closest.out.find("ray 40: naive triangle 7 at t = 1 (u = 0.25, v = 0.25), broken none\n") !=
+        std::string::npos);
     CHECK(closest.out.find("2 disagreements") != std::string::npos);
     CHECK(closest.out.find("ray 8:") == std::string::npos);
 
@@ -281,19 +304,20 @@ TEST_CASE("--check finds a broken structure, names each ray and exits with 1") {
 }
 
 TEST_CASE("a disagreement is any difference of the records") {
-    const std::vector<HitRecord> trusted{{1.0f, 0.0f, 0.0f, 3}, {1.0f, 0.5f, 0.5f, 3}, HitRecord::closest({})};
+    const std::vector<HitRecord> trusted{
+        {1.0f, 0.0f, 0.0f, 3}, {1.0f, 0.5f, 0.5f, 3}, HitRecord::closest({})};
     std::vector<HitRecord> other = trusted;
     const std::vector<std::size_t> indices{4, 5, 9};
     CHECK(disagreements({"naive", trusted}, {"tree", other}, indices).empty());
     other[0].triangle = 2;
     other[1].t = std::nextafter(1.0f, 2.0f);
     other[2] = {2.5f, 0.0f, 0.0f, 1};
-    CHECK(
-        disagreements({"naive", trusted}, {"tree", other}, indices) ==
-        std::vector<std::string>{
-            "ray 4: naive triangle 3 at t = 1 (u = 0, v = 0), tree triangle 2 at t = 1 (u = 0, v = 0)",
-            "ray 5: naive triangle 3 at t = 1 (u = 0.5, v = 0.5), tree triangle 3 at t = 1.0000001 (u = 0.5, v = 0.5)",
-            "ray 9: naive none, tree triangle 1 at t = 2.5 (u = 0, v = 0)"});
+    CHECK(disagreements({"naive", trusted}, {"tree", other}, indices) ==
+          std::vector<std::string>{"ray 4: naive triangle 3 at t = 1 (u = 0, v = 0), tree triangle "
+                                   "2 at t = 1 (u = 0, v = 0)",
+                                   "ray 5: naive triangle 3 at t = 1 (u = 0.5, v = 0.5), tree "
+                                   "triangle 3 at t = 1.0000001 (u = 0.5, v = 0.5)",
+                                   "ray 9: naive none, tree triangle 1 at t = 2.5 (u = 0, v = 0)"});
 }
 
 TEST_CASE("a sample to check has one ray of each equal part, and all rays below the limit") {
@@ -318,7 +342,8 @@ TEST_CASE("naive, all and list name the structures; an unknown triangle test is 
     const Ended tests = run(lab + "--triangle-test list");
     CHECK(tests.code == 0);
     CHECK(tests.out.find("moller-trumbore") != std::string::npos);
-    CHECK(run(lab + "--scene soup:50 --size 4x3 --triangle-test moller-trumbore --structure all").code == 0);
+    CHECK(run(lab + "--scene soup:50 --size 4x3 --triangle-test moller-trumbore --structure all")
+              .code == 0);
     CHECK(run(lab + "--help").code == 0);
 }
 
@@ -331,8 +356,8 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
     write_file(bench / "a file", "");
     write_rays(bench / "rays", std::array{ray_down(0)});
     const std::string rays = "--rays " + (bench / "rays").string() + " ";
-    const std::string outputs =
-        fmt::format("--hits {} --json {} ", (bench / "new/hits").string(), (bench / "new/json").string());
+    const std::string outputs = fmt::format("--hits {} --json {} ", (bench / "new/hits").string(),
+                                            (bench / "new/json").string());
     struct Wrong {
         std::string arguments;
         int code;
@@ -383,8 +408,9 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
     };
     for (const Wrong& wrong : wrongs) {
         INFO(wrong.arguments);
-        const Ended ended = run(lab + outputs + wrong.arguments +
-                                (wrong.arguments.find("--structure") == std::string::npos ? " --structure naive" : ""));
+        const Ended ended = run(
+            lab + outputs + wrong.arguments +
+            (wrong.arguments.find("--structure") == std::string::npos ? " --structure naive" : ""));
         INFO(ended.err);
         CHECK(ended.code == wrong.code);
         CHECK(ended.err.starts_with("lab: "));
@@ -392,14 +418,16 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
         CHECK(ended.err.find(wrong.names) != std::string::npos);
         CHECK(!std::filesystem::exists(bench / "new"));
     }
-    const Ended two = run(lab + mesh + rays + "--structure naive,naive --hits " + (bench / "hits").string());
+    const Ended two =
+        run(lab + mesh + rays + "--structure naive,naive --hits " + (bench / "hits").string());
     CHECK(two.code == 2);
     CHECK(two.err.find("--hits") != std::string::npos);
     CHECK(!std::filesystem::exists(bench / "hits"));
 }
 
 TEST_CASE(
-    "a file that cannot be written is an error before anything is measured, or on a full disk after, and no part of it "
+    "a file that cannot be written is an error before anything is measured, or on a full disk "
+    "after, and no part of it "
     "is left") {
     const Workbench bench;
     write_ply(bench / "row.ply", row_of_triangles(3));
@@ -423,11 +451,16 @@ TEST_CASE(
         CHECK(files() == before);
     };
     for (const char* option : {"--hits", "--json"}) {
-        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "a file/x").string()), true);  // in a file
-        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "").string()), true);          // a directory
-        fails(fmt::format("{} {} /dev/full", run_it, option), true);                            // no regular file
-        // A full disk: no file may grow beyond 512 bytes. (A full disk sends no signal; the limit's is ignored.)
-        fails(fmt::format("trap '' XFSZ; ulimit -f 1; {} {} {}", run_it, option, (bench / "out").string()), false);
+        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "a file/x").string()),
+              true);  // in a file
+        fails(fmt::format("{} {} '{}'", run_it, option, (bench / "").string()),
+              true);                                                  // a directory
+        fails(fmt::format("{} {} /dev/full", run_it, option), true);  // no regular file
+        // A full disk: no file may grow beyond 512 bytes. (A full disk sends no signal; the limit's
+        // is ignored.)
+        fails(fmt::format("trap '' XFSZ; ulimit -f 1; {} {} {}", run_it, option,
+                          (bench / "out").string()),
+              false);
     }
     CHECK(std::filesystem::is_character_file("/dev/full"));
 }

@@ -1,10 +1,4 @@
 // The lab's answers, through its files, against exact arithmetic: every structure, random rays.
-#include <fmt/format.h>
-
-#include <array>
-#include <cstring>
-#include <filesystem>
-
 #include "chapters/ch12_comparison/lab.hpp"
 #include "common/mesh.hpp"
 #include "common/program/progress.hpp"
@@ -15,6 +9,12 @@
 #include "tests/lab/process.hpp"
 #include "tests/oracle/compare.hpp"
 #include "tests/suite/test_rays.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
 
 using namespace space;
 
@@ -33,10 +33,11 @@ std::optional<Hit> answer(const HitRecord& record) {
     return Hit{.t = record.t, .triangle = record.triangle, .u = record.u, .v = record.v};
 }
 
-/// Runs the lab with every structure on `count` random rays. No answer of the first, naive tracing, may be wrong; the others
-/// must answer as it does, bit for bit. Without `variants` one structure stands for those that are called NAME-VARIANT.
-void require_agreement(const std::string& mesh_option, std::span<const Triangle> triangles, std::size_t count,
-                       bool variants = true) {
+/// Runs the lab with every structure on `count` random rays. No answer of the first, naive tracing,
+/// may be wrong; the others must answer as it does, bit for bit. Without `variants` one structure
+/// stands for those that are called NAME-VARIANT.
+void require_agreement(const std::string& mesh_option, std::span<const Triangle> triangles,
+                       std::size_t count, bool variants = true) {
     const Workbench bench;
     RayMaker maker(triangles, 2024);
     std::vector<Ray> rays(count);
@@ -45,19 +46,21 @@ void require_agreement(const std::string& mesh_option, std::span<const Triangle>
     std::vector<HitRecord> trusted;
     for (const Structure& structure : structures()) {
         if (!variants && structure.name.find('-') != structure.name.npos) continue;
-        const Ended ended =
-            run(fmt::format("{} lab {} --rays {} --structure {} --repeat 1 --hits {}", LAB_PROGRAM, mesh_option,
-                            (bench / "rays").string(), structure.name, (bench / "hits").string()));
+        const Ended ended = run(fmt::format(
+            "{} lab {} --rays {} --structure {} --repeat 1 --hits {}", LAB_PROGRAM, mesh_option,
+            (bench / "rays").string(), structure.name, (bench / "hits").string()));
         INFO(ended.err);
         REQUIRE(ended.code == 0);
         const std::vector<HitRecord> hits = read_hits(bench / "hits");
         REQUIRE(hits.size() == rays.size());
-        const std::string heading = fmt::format("{}, {}: {} triangles, {} rays", mesh_option, structure.name,
-                                                with_commas(triangles.size()), with_commas(count));
+        const std::string heading =
+            fmt::format("{}, {}: {} triangles, {} rays", mesh_option, structure.name,
+                        with_commas(triangles.size()), with_commas(count));
         if (!trusted.empty()) {
             std::size_t differ = 0;
             for (std::size_t i = 0; i < count; ++i) differ += hits[i] != trusted[i];
-            fmt::print("{}: {} other answers than {}\n", heading, differ, structures().front().name);
+            fmt::print("{}: {} other answers than {}\n", heading, differ,
+                       structures().front().name);
             INFO(heading);
             CHECK(differ == 0);
             continue;
@@ -86,8 +89,8 @@ void require_agreement(const std::string& mesh_option, std::span<const Triangle>
 
 void require_agreement_on_scenes(std::size_t rays_per_scene) {
     for (const char* scene : {"room", "sphereflake", "lattice", "soup_uneven", "stadium"})
-        require_agreement(fmt::format("--scene {}", scene), make_scene(scene).mesh.triangles(), rays_per_scene,
-                          variants_too);
+        require_agreement(fmt::format("--scene {}", scene), make_scene(scene).mesh.triangles(),
+                          rays_per_scene, variants_too);
 }
 
 void require_agreement_on_bunny(std::size_t rays, bool variants) {

@@ -2,6 +2,8 @@
 /// Running a program as its user does: a shell line in, exit code and both outputs out.
 #pragma once
 
+#include "common/program/file.hpp"
+
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,8 +11,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-
-#include "common/program/file.hpp"
 
 namespace space {
 
@@ -47,7 +47,8 @@ inline Ended run(const std::string& shell_line) {
     if (!pipe) throw std::runtime_error("cannot run " + shell_line);
     Ended ended{};
     char buffer[4096];
-    for (std::size_t count; (count = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) ended.out.append(buffer, count);
+    for (std::size_t count; (count = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+        ended.out.append(buffer, count);
     const int status = ::pclose(pipe);
     ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     ended.err = read_file(errors);

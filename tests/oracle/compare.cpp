@@ -1,13 +1,13 @@
 #include "tests/oracle/compare.hpp"
 
+#include "common/program/report.hpp"
+#include "tests/oracle/moller_trumbore_bound.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "common/program/report.hpp"
-#include "tests/oracle/moller_trumbore_bound.hpp"
 
 namespace space {
 namespace {
@@ -17,7 +17,8 @@ double ulp(float t) {
     return std::isinf(size) ? infinity : double{std::nextafter(size, infinity)} - double{size};
 }
 
-/// How far from the exact t a right answer may be: half a unit in the last place and the error bound.
+/// How far from the exact t a right answer may be: half a unit in the last place and the error
+/// bound.
 double t_uncertainty(const Ray& ray, const Triangle& triangle) {
     const std::optional<Crossing> exact = crossing(ray, triangle);
     if (!exact) return infinity;
@@ -69,23 +70,28 @@ Comparison compare(const ExactOracle& oracle, const Ray& ray, const std::optiona
             if (!at_an_end(hit.t, hit.triangle)) return wrong(Agreement::wrong_miss, hit.triangle);
         return {.agreement = hits.empty() ? Agreement::agree : Agreement::interval_end};
     }
-    if (answer->triangle >= triangles.size()) return {.agreement = Agreement::wrong_triangle, .beyond_bound = true};
+    if (answer->triangle >= triangles.size())
+        return {.agreement = Agreement::wrong_triangle, .beyond_bound = true};
 
-    const auto mine =
-        std::find_if(hits.begin(), hits.end(), [&](const ExactHit& hit) { return hit.triangle == answer->triangle; });
+    const auto mine = std::find_if(hits.begin(), hits.end(), [&](const ExactHit& hit) {
+        return hit.triangle == answer->triangle;
+    });
     if (mine == hits.end()) {
         Ray line = ray;
         line.tmin = -infinity;
         line.tmax = infinity;
         const bool hit = decide(line, triangles[answer->triangle]) != Place::miss;
-        if (hit && at_an_end(answer->t, answer->triangle)) return {.agreement = Agreement::interval_end};
-        return wrong(hits.empty() ? Agreement::wrong_hit : Agreement::wrong_triangle, answer->triangle);
+        if (hit && at_an_end(answer->t, answer->triangle))
+            return {.agreement = Agreement::interval_end};
+        return wrong(hits.empty() ? Agreement::wrong_hit : Agreement::wrong_triangle,
+                     answer->triangle);
     }
 
     Comparison right{.rounded = mine->t != answer->t};
     if (right.rounded) {
         const double exact = crossing(ray, triangles[answer->triangle])->t;
-        right.beyond_bound = std::abs(double{answer->t} - exact) > t_uncertainty(ray, triangles[answer->triangle]);
+        right.beyond_bound =
+            std::abs(double{answer->t} - exact) > t_uncertainty(ray, triangles[answer->triangle]);
     }
     if (mine->rank == 0) {
         right.agreement = hits.size() > 1 && hits[1].rank == 0 ? Agreement::tie : Agreement::agree;
@@ -116,7 +122,8 @@ std::size_t Tally::examined() const {
 }
 
 std::size_t Tally::wrong() const {
-    return (*this)[Agreement::wrong_hit] + (*this)[Agreement::wrong_miss] + (*this)[Agreement::wrong_triangle];
+    return (*this)[Agreement::wrong_hit] + (*this)[Agreement::wrong_miss] +
+           (*this)[Agreement::wrong_triangle];
 }
 
 void Tally::add(const Comparison& comparison) {
@@ -137,10 +144,11 @@ std::string Tally::text() const {
     std::string text;
     for (std::size_t i = 0; i < agreements; ++i)
         if (counts[i])
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name(static_cast<Agreement>(i)),
-                                with_commas(counts[i]));
-    return fmt::format("{}; t not the nearest float {}; beyond the error bound {}; skipped {}", text,
-                       with_commas(rounded_t), with_commas(beyond_bound), with_commas(skipped));
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                                name(static_cast<Agreement>(i)), with_commas(counts[i]));
+    return fmt::format("{}; t not the nearest float {}; beyond the error bound {}; skipped {}",
+                       text, with_commas(rounded_t), with_commas(beyond_bound),
+                       with_commas(skipped));
 }
 
 }  // namespace space

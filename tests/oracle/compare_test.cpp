@@ -1,8 +1,8 @@
 #include "tests/oracle/compare.hpp"
 
-#include <cmath>
-
 #include "tests/catch.hpp"
+
+#include <cmath>
 
 namespace space {
 namespace {
@@ -10,8 +10,10 @@ namespace {
 Triangle layer(float z) {
     return {{-4, -4, z}, {8, -4, z}, {-4, 8, z}};
 }
-/// Far in front; two at the same t; one a float behind them, which a distant origin cannot tell apart; one far behind.
-const std::vector<Triangle> layers{layer(2), layer(1), layer(1), layer(std::nextafter(1.0f, 0.0f)), layer(-2)};
+/// Far in front; two at the same t; one a float behind them, which a distant origin cannot tell
+/// apart; one far behind.
+const std::vector<Triangle> layers{layer(2), layer(1), layer(1), layer(std::nextafter(1.0f, 0.0f)),
+                                   layer(-2)};
 const ExactOracle oracle = ExactOracle::build(layers);
 
 Ray down(float z) {
@@ -40,7 +42,8 @@ TEST_CASE("an order that t cannot tell is an inversion, any other order is wrong
     CHECK(judged(down(4), Hit{.t = 2, .triangle = 99}) == Agreement::wrong_triangle);
 }
 
-TEST_CASE("hits and misses that are none are wrong, and beyond the bound unless they are near an edge") {
+TEST_CASE(
+    "hits and misses that are none are wrong, and beyond the bound unless they are near an edge") {
     const Comparison miss = compare(oracle, down(4), std::nullopt);
     CHECK(miss.agreement == Agreement::wrong_miss);
     CHECK(miss.wrongly_decided == 0u);
@@ -71,7 +74,8 @@ TEST_CASE("a hit at the very end of the interval may be taken for outside") {
     CHECK(judged(ray, Hit{.t = 2, .triangle = 0}) == Agreement::wrong_hit);
 }
 
-TEST_CASE("t that is not the nearest float is counted, and told when rounding does not explain it") {
+TEST_CASE(
+    "t that is not the nearest float is counted, and told when rounding does not explain it") {
     const float t = 2, next = std::nextafter(t, 3.0f);
     CHECK_FALSE(compare(oracle, down(4), Hit{.t = t, .triangle = 0}).rounded);
     const Comparison off = compare(oracle, down(4), Hit{.t = next, .triangle = 0});
@@ -92,7 +96,8 @@ TEST_CASE("a tally counts every ray, and says what was skipped") {
     CHECK(sum.wrong() == 2);
     CHECK(sum[Agreement::tie] == 2);
     CHECK(sum.text() ==
-          "agree 2, tie 2, wrong miss 2; t not the nearest float 0; beyond the error bound 2; skipped 14");
+          "agree 2, tie 2, wrong miss 2; t not the nearest float 0; beyond the error bound 2; "
+          "skipped 14");
 }
 
 }  // namespace space

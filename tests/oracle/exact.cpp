@@ -21,7 +21,9 @@ using Vec = std::array<Number, 3>;
 /// p - origin, in a number type that converts floats without loss.
 template <class Number>
 Vec<Number> difference(const Point3& p, const Point3& origin) {
-    const auto component = [&](int axis) { return Number(double{p[axis]}) - Number(double{origin[axis]}); };
+    const auto component = [&](int axis) {
+        return Number(double{p[axis]}) - Number(double{origin[axis]});
+    };
     return {component(0), component(1), component(2)};
 }
 template <class Number>
@@ -45,8 +47,9 @@ struct View {
           direction(difference<Number>(ray.direction, Point3{0.0f})) {}
 };
 
-/// Volumes of the parallelepipeds of the direction and two corners: the weights of a, b and c times the determinant,
-/// which is their sum. The fourth, of the three corners, is t times the determinant.
+/// Volumes of the parallelepipeds of the direction and two corners: the weights of a, b and c times
+/// the determinant, which is their sum. The fourth, of the three corners, is t times the
+/// determinant.
 struct Volumes {
     Exact a, b, c, determinant, t;
 
@@ -61,10 +64,10 @@ struct Volumes {
     }
 };
 
-/// The line passes two edges on different sides, beyond doubt. A volume computed in double is a sum of six products of
-/// three factors; a difference of coordinates, two products and the sums round at most eight times (2^-53 each), so it
-/// is off by less than 6 * 8 * 2^-53 < 2^-47 times the largest product. Doubles of this size neither over- nor
-/// underflow.
+/// The line passes two edges on different sides, beyond doubt. A volume computed in double is a sum
+/// of six products of three factors; a difference of coordinates, two products and the sums round
+/// at most eight times (2^-53 each), so it is off by less than 6 * 8 * 2^-53 < 2^-47 times the
+/// largest product. Doubles of this size neither over- nor underflow.
 bool certainly_missed(const Ray& ray, const Triangle& triangle) {
     const View<double> view(ray, triangle);
     const auto largest = [](const Vec<double>& v) {
@@ -94,15 +97,20 @@ Place place(const Volumes& volumes) {
     return zeros == 0 ? Place::interior : zeros == 1 ? Place::edge : Place::vertex;
 }
 
-/// The nearest float, ties to even; beyond the largest float by half a unit in the last place: infinity.
+/// The nearest float, ties to even; beyond the largest float by half a unit in the last place:
+/// infinity.
 float nearest_float(const Exact& value) {
-    const auto as_double = [](float f) {  // 2^128 stands for infinity: what would follow the largest float
-        return std::isinf(f) ? std::copysign(0x1p128, double{f}) : double{f};
-    };
-    auto guess = static_cast<float>(CGAL::to_double(value));  // at most a unit in the last place off
+    const auto as_double =
+        [](float f) {  // 2^128 stands for infinity: what would follow the largest float
+            return std::isinf(f) ? std::copysign(0x1p128, double{f}) : double{f};
+        };
+    auto guess =
+        static_cast<float>(CGAL::to_double(value));  // at most a unit in the last place off
     for (;;) {
-        const float below = std::nextafter(guess, -infinity), above = std::nextafter(guess, infinity);
-        const Exact low(0.5 * (as_double(below) + as_double(guess)));  // the middles are exact in double
+        const float below = std::nextafter(guess, -infinity),
+                    above = std::nextafter(guess, infinity);
+        const Exact low(0.5 *
+                        (as_double(below) + as_double(guess)));  // the middles are exact in double
         const Exact high(0.5 * (as_double(guess) + as_double(above)));
         const bool even = (std::bit_cast<std::uint32_t>(guess) & 1u) == 0;
         if (below != guess && (value < low || (value == low && !even)))
@@ -124,7 +132,8 @@ Place decide(const Ray& ray, const Triangle& triangle) {
     if (!is_valid(ray)) return Place::miss;
     const Volumes volumes(ray, triangle);
     const Place where = place(volumes);
-    if (where == Place::miss || !in_interval(nearest_float(volumes.t / volumes.determinant), ray)) return Place::miss;
+    if (where == Place::miss || !in_interval(nearest_float(volumes.t / volumes.determinant), ray))
+        return Place::miss;
     return where;
 }
 
@@ -172,7 +181,8 @@ std::vector<ExactHit> ExactOracle::hits(const Ray& ray) const {
         if (const float rounded = nearest_float(t); in_interval(rounded, ray))
             found.push_back({{.triangle = i, .place = where, .t = rounded}, t});
     }
-    std::stable_sort(found.begin(), found.end(), [](const Found& x, const Found& y) { return x.t < y.t; });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Found& x, const Found& y) { return x.t < y.t; });
 
     std::vector<ExactHit> hits;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -191,8 +201,9 @@ std::vector<ExactHit> ExactOracle::closest(const Ray& ray) const {
 bool cgal_do_intersect(const Ray& ray, const Triangle& triangle) {
     const auto point = [](const Point3& p) { return Kernel::Point_3(p.x, p.y, p.z); };
     const Kernel::Vector_3 direction(ray.direction.x, ray.direction.y, ray.direction.z);
-    return CGAL::do_intersect(Kernel::Ray_3(point(ray.origin), direction),
-                              Kernel::Triangle_3(point(triangle.a), point(triangle.b), point(triangle.c)));
+    return CGAL::do_intersect(
+        Kernel::Ray_3(point(ray.origin), direction),
+        Kernel::Triangle_3(point(triangle.a), point(triangle.b), point(triangle.c)));
 }
 
 }  // namespace space

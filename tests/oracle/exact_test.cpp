@@ -1,10 +1,10 @@
 #include "tests/oracle/exact.hpp"
 
-#include <cmath>
-
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/integer_oracle.hpp"
+
+#include <cmath>
 
 namespace space {
 namespace {
@@ -18,7 +18,8 @@ Ray down(float x, float y) {
 }
 
 Point3 random_point(Pcg32& random, float low, float high) {
-    const float x = random.uniform(low, high), y = random.uniform(low, high), z = random.uniform(low, high);
+    const float x = random.uniform(low, high), y = random.uniform(low, high),
+                z = random.uniform(low, high);
     return {x, y, z};
 }
 
@@ -41,7 +42,8 @@ TEST_CASE("the oracle tells interior, edges, vertices and misses apart by a sing
 
 TEST_CASE("the oracle decides alike from both sides and for every order of the vertices") {
     const auto& [a, b, c] = corner;
-    for (const Triangle& triangle : {Triangle{a, b, c}, {b, c, a}, {c, a, b}, {a, c, b}, {c, b, a}, {b, a, c}}) {
+    for (const Triangle& triangle :
+         {Triangle{a, b, c}, {b, c, a}, {c, a, b}, {a, c, b}, {c, b, a}, {b, a, c}}) {
         CHECK(decide(down(1, 2), triangle) == Place::interior);
         CHECK(decide(down(1, 3), triangle) == Place::edge);
         CHECK(decide({.origin = {1, 2, -1}, .direction = {0, 0, 1}}, triangle) == Place::interior);
@@ -84,8 +86,10 @@ TEST_CASE("an invalid ray hits nothing") {
 TEST_CASE("the interval is closed, and compared with t after rounding to float") {
     const Ray ray = down(1, 1);
     CHECK(decide({ray.origin, ray.direction, 1, 1}, corner) == Place::interior);
-    CHECK(decide({ray.origin, ray.direction, 0, std::nextafter(1.0f, 0.0f)}, corner) == Place::miss);
-    CHECK(decide({ray.origin, ray.direction, std::nextafter(1.0f, 2.0f), 2}, corner) == Place::miss);
+    CHECK(decide({ray.origin, ray.direction, 0, std::nextafter(1.0f, 0.0f)}, corner) ==
+          Place::miss);
+    CHECK(decide({ray.origin, ray.direction, std::nextafter(1.0f, 2.0f), 2}, corner) ==
+          Place::miss);
     CHECK(decide({ray.origin, ray.direction, -infinity, infinity}, corner) == Place::interior);
 
     // t = 1/3: the nearest float is a little more, and counts.
@@ -93,13 +97,15 @@ TEST_CASE("the interval is closed, and compared with t after rounding to float")
     const float t = 1.0f / 3.0f;
     REQUIRE(double{t} > 1.0 / 3.0);
     CHECK(decide({third.origin, third.direction, t, t}, corner) == Place::interior);
-    CHECK(decide({third.origin, third.direction, 0, std::nextafter(t, 0.0f)}, corner) == Place::miss);
+    CHECK(decide({third.origin, third.direction, 0, std::nextafter(t, 0.0f)}, corner) ==
+          Place::miss);
 }
 
 TEST_CASE("t is the nearest float, ties to even, from the smallest to beyond the largest") {
     const auto t = [](float from, float plane, float speed) {
         const Triangle wide{{-1, -1, plane}, {4, -1, plane}, {-1, 4, plane}};
-        const auto hits = ExactOracle::build({&wide, 1}).hits({.origin = {0, 0, from}, .direction = {0, 0, speed}});
+        const auto hits = ExactOracle::build({&wide, 1})
+                              .hits({.origin = {0, 0, from}, .direction = {0, 0, speed}});
         REQUIRE(hits.size() == 1);
         return hits.front().t;
     };
@@ -111,14 +117,16 @@ TEST_CASE("t is the nearest float, ties to even, from the smallest to beyond the
     CHECK(t(0, 0x1.000002p-50f, 0x1p100f) == 0x1p-149f);
     CHECK(t(-3e38f, 3e38f, 1) == infinity);
     CHECK(t(0, 0x1.fffffep127f, 1) == 0x1.fffffep127f);
-    CHECK(t(-0x1p102f, 0x1.fffffep127f, 1) == 0x1.fffffep127f);  // less than half a unit beyond the largest
-    CHECK(t(-0x1p103f, 0x1.fffffep127f, 1) == infinity);         // half a unit: to even
+    CHECK(t(-0x1p102f, 0x1.fffffep127f, 1) ==
+          0x1.fffffep127f);  // less than half a unit beyond the largest
+    CHECK(t(-0x1p103f, 0x1.fffffep127f, 1) == infinity);  // half a unit: to even
 }
 
 TEST_CASE("hits come in the order of exact t, with equal ranks at equal t only") {
     const auto layer = [](float z) { return Triangle{{-4, -4, z}, {8, -4, z}, {-4, 8, z}}; };
     const float z = 1.0f / 3.0f;
-    const std::vector<Triangle> layers{layer(0), layer(z), layer(std::nextafter(z, 1.0f)), layer(z), layer(-1)};
+    const std::vector<Triangle> layers{layer(0), layer(z), layer(std::nextafter(z, 1.0f)), layer(z),
+                                       layer(-1)};
     const ExactOracle oracle = ExactOracle::build(layers);
 
     // So far away that the floats of t are the same for the layers a float apart.
@@ -140,21 +148,26 @@ TEST_CASE("hits come in the order of exact t, with equal ranks at equal t only")
     CHECK(ExactOracle::build({}).hits(down(0, 0)).empty());
 }
 
-TEST_CASE("the oracle sees a vertex and an edge where floats do not: no ray leaks between neighbours") {
-    // Two triangles that share the edge a c, and a ray that meets that edge only to within rounding.
+TEST_CASE(
+    "the oracle sees a vertex and an edge where floats do not: no ray leaks between neighbours") {
+    // Two triangles that share the edge a c, and a ray that meets that edge only to within
+    // rounding.
     const Point3 a(-1.0625f, -1.125f, -0.125f), b(0.75f, -0.875f, 0.0625f), c(1.1875f, 1.0625f, 0),
         d(-1.0625f, 0.8125f, -0.125f);
     const std::vector<Triangle> quad{{a, b, c}, {a, c, d}};
-    CHECK(ExactOracle::build(quad).hits({{3, 2, 5}, {-2.26249981f, -1.375f, -5.0250001f}}).size() == 1);
+    CHECK(ExactOracle::build(quad).hits({{3, 2, 5}, {-2.26249981f, -1.375f, -5.0250001f}}).size() ==
+          1);
 
-    // A fan of six: every ray near the hub hits one of them, and all where it passes the hub exactly. The coordinates
-    // have so many bits that double would round, and so few that the directions to the hub are exact.
+    // A fan of six: every ray near the hub hits one of them, and all where it passes the hub
+    // exactly. The coordinates have so many bits that double would round, and so few that the
+    // directions to the hub are exact.
     const auto exact = [](const Point3& p) { return glm::round(p * 0x1p20f) * 0x1p-20f; };
     const Point3 hub = exact({0.1f, 0.2f, 0.3f});
     std::vector<Triangle> fan;
     const auto rim = [&](int k) {
         const double angle = k % 6 * 3.14159265358979323846 / 3;
-        return hub + Point3(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f);
+        return hub + Point3(static_cast<float>(std::cos(angle)),
+                            static_cast<float>(std::sin(angle)), 0.0f);
     };
     for (int k = 0; k < 6; ++k) fan.push_back({hub, rim(k), rim(k + 1)});
     const ExactOracle oracle = ExactOracle::build(fan);
@@ -212,7 +225,8 @@ TEST_CASE("the exact oracle and whole-number arithmetic agree on every hit, plac
     CHECK(ties > 200);
 }
 
-TEST_CASE("the exact oracle and CGAL's own predicate agree on rays at and beside edges and vertices") {
+TEST_CASE(
+    "the exact oracle and CGAL's own predicate agree on rays at and beside edges and vertices") {
     Pcg32 random(18);
     std::size_t compared = 0, hits = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -222,7 +236,10 @@ TEST_CASE("the exact oracle and CGAL's own predicate agree on rays at and beside
         const Triangle triangle{a, b, c};
         const Point3 origin = i % 6 == 0 ? a : i % 6 == 1 ? (a + b) * 0.5f : point();
         const float s = random.uniform();
-        const Point3 target = i % 4 == 0 ? b : i % 4 == 1 ? b + s * (c - b) : i % 4 == 2 ? a + s * (c - a) : point();
+        const Point3 target = i % 4 == 0   ? b
+                              : i % 4 == 1 ? b + s * (c - b)
+                              : i % 4 == 2 ? a + s * (c - a)
+                                           : point();
         const Ray ray{origin, target - origin};
         if (!is_valid(ray) || is_degenerate(triangle) || !crossing(ray, triangle)) continue;
         const bool hit = decide(ray, triangle) != Place::miss;

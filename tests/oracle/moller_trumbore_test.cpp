@@ -1,11 +1,6 @@
-// Möller-Trumbore in double against exact arithmetic: where it may be wrong, and what holds bit for bit.
+// Möller-Trumbore in double against exact arithmetic: where it may be wrong, and what holds bit for
+// bit.
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
-
-#include <fmt/format.h>
-#include <rapidcheck.h>
-
-#include <cstdlib>
-#include <utility>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/pcg32.hpp"
@@ -14,6 +9,12 @@
 #include "tests/oracle/compare.hpp"
 #include "tests/oracle/moller_trumbore_bound.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
+
+#include <fmt/format.h>
+#include <rapidcheck.h>
+
+#include <cstdlib>
+#include <utility>
 
 namespace space {
 namespace {
@@ -44,7 +45,8 @@ Decisions decisions(std::uint64_t seed, const Aim& aim) {
         const Point3 a = random_point(random, -1.0f, 1.0f), b = random_point(random, -1.0f, 1.0f);
         const Triangle triangle{a, b, random_point(random, -1.0f, 1.0f)};
         const Point3 origin = random_point(random, -3.0f, 3.0f);
-        const Ray ray{.origin = origin, .direction = aim(random, triangle) - origin, .tmin = -infinity};
+        const Ray ray{
+            .origin = origin, .direction = aim(random, triangle) - origin, .tmin = -infinity};
         const std::optional<Hit> hit = MollerTrumbore::intersect(ray, triangle);
         const bool exact = decide(ray, triangle) != Place::miss;
         if (hit.has_value() != exact) {
@@ -59,28 +61,29 @@ Decisions decisions(std::uint64_t seed, const Aim& aim) {
             count.beyond += std::abs(hit->v - at->v) > bound.weight + 0x1p-24;
         }
     }
-    fmt::print("  seed {}: {} rays and triangles, {} wrong hits, {} wrong misses\n", seed, with_commas(pairs),
-               count.wrong_hits, count.wrong_misses);
+    fmt::print("  seed {}: {} rays and triangles, {} wrong hits, {} wrong misses\n", seed,
+               with_commas(pairs), count.wrong_hits, count.wrong_misses);
     return count;
 }
 
 }  // namespace
 
 TEST_CASE("Möller-Trumbore in double decides all random rays exactly") {
-    const Decisions count =
-        decisions(1, [](Pcg32& random, const Triangle&) { return random_point(random, -1.0f, 1.0f); });
+    const Decisions count = decisions(
+        1, [](Pcg32& random, const Triangle&) { return random_point(random, -1.0f, 1.0f); });
     CHECK(count.wrong_hits == 0);
     CHECK(count.wrong_misses == 0);
     CHECK(count.beyond == 0);
 }
 
 TEST_CASE("Möller-Trumbore in double errs at edges and vertices only within its error bound") {
-    const Decisions at_edges =
-        decisions(2, [](Pcg32& random, const Triangle& t) { return t.a + random.uniform() * (t.b - t.a); });
+    const Decisions at_edges = decisions(
+        2, [](Pcg32& random, const Triangle& t) { return t.a + random.uniform() * (t.b - t.a); });
     const Decisions at_vertices = decisions(3, [](Pcg32&, const Triangle& t) { return t.b; });
     CHECK(at_edges.beyond == 0);
     CHECK(at_vertices.beyond == 0);
-    CHECK(at_vertices.wrong_misses > 0);  // the bound is tried: rays whose exact answer rounding hides
+    CHECK(at_vertices.wrong_misses >
+          0);  // the bound is tried: rays whose exact answer rounding hides
 }
 
 TEST_CASE("the error bound is small: 10^-13 for triangles seen from the front") {
@@ -92,18 +95,23 @@ TEST_CASE("the error bound is small: 10^-13 for triangles seen from the front") 
     CHECK(bound.t < 1e-13);
 }
 
-TEST_CASE("Möller-Trumbore never hits a triangle without area, whatever rounding makes of its determinant") {
+TEST_CASE(
+    "Möller-Trumbore never hits a triangle without area, whatever rounding makes of its "
+    "determinant") {
     Pcg32 random(4);
     std::size_t noisy = 0, hits = 0;
     for (int i = 0; i < pairs; ++i) {
-        const auto fraction = [&] { return static_cast<float>(1 + random.below(1u << 20)) * 0x1p-23f; };
-        const float sx = fraction(), sy = fraction(), sz = fraction(), ax = fraction(), ay = fraction(),
-                    az = fraction();
+        const auto fraction = [&] {
+            return static_cast<float>(1 + random.below(1u << 20)) * 0x1p-23f;
+        };
+        const float sx = fraction(), sy = fraction(), sz = fraction(), ax = fraction(),
+                    ay = fraction(), az = fraction();
         const Point3 a(ax, ay, az), step(sx, sy, sz);
         const Triangle triangle{a, a + step, a + 3.0f * step};
         REQUIRE(is_degenerate(triangle));
         const Point3 origin = i % 2 ? triangle.b : random_point(random, -1.0f, 1.0f);
-        const Ray ray{.origin = origin, .direction = random_point(random, -1.0f, 1.0f), .tmin = -infinity};
+        const Ray ray{
+            .origin = origin, .direction = random_point(random, -1.0f, 1.0f), .tmin = -infinity};
         hits += MollerTrumbore::intersect(ray, triangle).has_value();
         const Double3 ab = Double3(triangle.b) - Double3(a), ac = Double3(triangle.c) - Double3(a);
         noisy += glm::dot(glm::cross(Double3(ray.direction), ac), ab) != 0.0;
@@ -116,7 +124,8 @@ namespace {
 
 /// A multiple of 2^-10 in [-2, 2): sums of a few are exact, and coincidences are frequent.
 rc::Gen<float> coordinate() {
-    return rc::gen::map(rc::gen::inRange(-2048, 2048), [](int i) { return static_cast<float>(i) * 0x1p-10f; });
+    return rc::gen::map(rc::gen::inRange(-2048, 2048),
+                        [](int i) { return static_cast<float>(i) * 0x1p-10f; });
 }
 rc::Gen<Point3> point() {
     return rc::gen::map(rc::gen::tuple(coordinate(), coordinate(), coordinate()),
@@ -125,15 +134,17 @@ rc::Gen<Point3> point() {
                         });
 }
 rc::Gen<Triangle> triangle() {
-    return rc::gen::map(rc::gen::tuple(point(), point(), point()), [](const std::tuple<Point3, Point3, Point3>& t) {
-        return Triangle{std::get<0>(t), std::get<1>(t), std::get<2>(t)};
-    });
+    return rc::gen::map(rc::gen::tuple(point(), point(), point()),
+                        [](const std::tuple<Point3, Point3, Point3>& t) {
+                            return Triangle{std::get<0>(t), std::get<1>(t), std::get<2>(t)};
+                        });
 }
 /// Half of them aimed at a point of the triangle.
 Ray ray_at(const Triangle& t) {
     const Point3 origin = *point();
     const float u = *coordinate() * 0.25f + 0.5f, v = *coordinate() * 0.25f + 0.5f;
-    const Point3 target = *rc::gen::arbitrary<bool>() ? t.a + u * (t.b - t.a) + (1 - u) * v * (t.c - t.a) : *point();
+    const Point3 target =
+        *rc::gen::arbitrary<bool>() ? t.a + u * (t.b - t.a) + (1 - u) * v * (t.c - t.a) : *point();
     RC_PRE(target != origin);
     return {.origin = origin, .direction = target - origin};
 }
@@ -151,7 +162,8 @@ TEST_CASE("property: the hit's point lies on the triangle's plane, to within the
         const Double3 p = Double3(ray.origin) + double{hit->t} * Double3(ray.direction);
         const double off = std::abs(glm::dot(normal(t), p - Double3(t.a)));
         const double bound = moller_trumbore_bound(ray, t, *at).t + 0x1p-24 * std::abs(at->t);
-        const double evaluation = 0x1p-48 * glm::length(normal(t)) * (glm::length(p) + glm::length(Double3(t.a)) + 1);
+        const double evaluation =
+            0x1p-48 * glm::length(normal(t)) * (glm::length(p) + glm::length(Double3(t.a)) + 1);
         RC_ASSERT(off <= bound * std::abs(at->determinant) + evaluation);
     }));
 }
@@ -200,21 +212,26 @@ TEST_CASE("property: the order of the vertices changes hit and miss only within 
         const Triangle t = *triangle();
         const Ray ray = ray_at(t);
         const auto hit = MollerTrumbore::intersect(ray, t);
-        for (const Triangle& other : {Triangle{t.b, t.c, t.a}, {t.c, t.a, t.b}, {t.a, t.c, t.b}, {t.b, t.a, t.c}}) {
+        for (const Triangle& other :
+             {Triangle{t.b, t.c, t.a}, {t.c, t.a, t.b}, {t.a, t.c, t.b}, {t.b, t.a, t.c}}) {
             const auto again = MollerTrumbore::intersect(ray, other);
-            if (hit.has_value() != again.has_value()) RC_ASSERT(within_bound(ray, t) || within_bound(ray, other));
+            if (hit.has_value() != again.has_value())
+                RC_ASSERT(within_bound(ray, t) || within_bound(ray, other));
         }
     }));
 }
 
-TEST_CASE("property: the order of the triangles changes the nearest triangle's index, never its t") {
+TEST_CASE(
+    "property: the order of the triangles changes the nearest triangle's index, never its t") {
     CHECK(rc::check([] {
         const auto triangles = *rc::gen::container<std::vector<Triangle>>(triangle());
         RC_PRE(!triangles.empty());
         const Ray ray = ray_at(triangles.front());
         std::vector<Triangle> shuffled = triangles;
         for (std::size_t i = shuffled.size(); i > 1; --i)
-            std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(i)))]);
+            std::swap(
+                shuffled[i - 1],
+                shuffled[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(i)))]);
         const auto hit = closest_hit(Naive<>::build(triangles), ray),
                    again = closest_hit(Naive<>::build(shuffled), ray);
         RC_ASSERT(hit.has_value() == again.has_value());

@@ -1,5 +1,6 @@
-// Every allocation of the program passes here, so that one that follows a lying header is seen. In a file of its own:
-// the compiler would otherwise see through new and delete, and warn of malloc and free.
+// Every allocation of the program passes here, so that one that follows a lying header is seen. In
+// a file of its own: the compiler would otherwise see through new and delete, and warn of malloc
+// and free.
 #include <algorithm>
 #include <cstdlib>
 #include <new>
@@ -13,7 +14,9 @@ void* operator new(std::size_t size) {
     if (void* memory = std::malloc(size ? size : 1)) return memory;
     throw std::bad_alloc();
 }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size ? size : 1); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return std::malloc(size ? size : 1);
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }

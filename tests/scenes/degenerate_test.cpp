@@ -1,12 +1,12 @@
 // Zero area, decided exactly: against CGAL's exact predicate.
+#include "common/mesh.hpp"
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cmath>
 #include <limits>
-
-#include "common/mesh.hpp"
-#include "common/pcg32.hpp"
-#include "tests/catch.hpp"
 
 namespace space {
 namespace {
@@ -28,7 +28,8 @@ TEST_CASE("degenerate triangles are counted as the exact predicate counts them",
     Pcg32 random(1);
     std::vector<Triangle> triangles;
     const auto integer = [&](int range) {
-        return static_cast<float>(static_cast<int>(random.below(2 * static_cast<std::uint32_t>(range) + 1)) - range);
+        return static_cast<float>(
+            static_cast<int>(random.below(2 * static_cast<std::uint32_t>(range) + 1)) - range);
     };
     const auto point = [&](int range) {
         const float x = integer(range), y = integer(range), z = integer(range);
@@ -37,10 +38,13 @@ TEST_CASE("degenerate triangles are counted as the exact predicate counts them",
     SECTION("small integers: many are degenerate") {
         for (int i = 0; i < 20000; ++i) triangles.push_back({point(2), point(2), point(2)});
     }
-    SECTION("points of a line, one of them moved by one unit in the last place of one coordinate, or not") {
+    SECTION(
+        "points of a line, one of them moved by one unit in the last place of one coordinate, or "
+        "not") {
         for (int i = 0; i < 20000; ++i) {
             const Point3 start = point(1 << 20), way = point(1 << 10);
-            Triangle triangle{start, start + way * float(random.below(64)), start - way * float(random.below(64))};
+            Triangle triangle{start, start + way * float(random.below(64)),
+                              start - way * float(random.below(64))};
             if (random.below(2)) {
                 float& moved = triangle.b[static_cast<int>(random.below(3))];
                 moved = std::nextafter(moved, infinity);
@@ -52,20 +56,23 @@ TEST_CASE("degenerate triangles are counted as the exact predicate counts them",
         for (int i = 0; i < 20000; ++i) {
             const int spread = static_cast<int>(random.below(3)) * 100 + 1;
             const auto scaled = [&] {
-                return std::ldexp(integer(3),
-                                  static_cast<int>(random.below(static_cast<std::uint32_t>(spread))) - spread / 2);
+                return std::ldexp(
+                    integer(3), static_cast<int>(random.below(static_cast<std::uint32_t>(spread))) -
+                                    spread / 2);
             };
             Triangle triangle;
             for (Point3* p : {&triangle.a, &triangle.b, &triangle.c})
                 for (int axis = 0; axis < 3; ++axis) (*p)[axis] = scaled();
-            if (random.below(3) == 0) triangle.b = 2.0f * triangle.a;  // with c = 4 a: a line through the origin
+            if (random.below(3) == 0)
+                triangle.b = 2.0f * triangle.a;  // with c = 4 a: a line through the origin
             if (random.below(3) == 0) triangle.c = 4.0f * triangle.a;
             if (random.below(4) == 0) triangle.a = triangle.b;
             triangles.push_back(triangle);
         }
     }
     SECTION("the ends of the range") {
-        constexpr float tiny = std::numeric_limits<float>::denorm_min(), huge = std::numeric_limits<float>::max();
+        constexpr float tiny = std::numeric_limits<float>::denorm_min(),
+                        huge = std::numeric_limits<float>::max();
         const Point3 corners[] = {{0, 0, 0},          {tiny, 0, 0},          {0, tiny, 0},
                                   {huge, huge, huge}, {-huge, -huge, -huge}, {huge, -huge, tiny},
                                   {tiny, tiny, tiny}};
@@ -81,10 +88,12 @@ TEST_CASE("degenerate triangles are counted as the exact predicate counts them",
 
 TEST_CASE("a sum that cancels in double but not exactly is not called zero", "[mesh]") {
     // The six products differ by 2^60 and more, so that the small ones vanish in a rounded sum.
-    const Triangle triangle{{0x1p40f, 0x1p40f, 0.0f}, {0x1p-20f, 0.0f, 0.0f}, {0.0f, 0x1p-20f, 0.0f}};
+    const Triangle triangle{
+        {0x1p40f, 0x1p40f, 0.0f}, {0x1p-20f, 0.0f, 0.0f}, {0.0f, 0x1p-20f, 0.0f}};
     CHECK_FALSE(exactly_degenerate(triangle));
     CHECK(count_degenerate({&triangle, 1}) == 0);
-    const Triangle needle{{0, 0, 0}, {0x1p40f, 0x1p40f, 0.0f}, {0x1p40f, std::nextafter(0x1p40f, infinity), 0.0f}};
+    const Triangle needle{
+        {0, 0, 0}, {0x1p40f, 0x1p40f, 0.0f}, {0x1p40f, std::nextafter(0x1p40f, infinity), 0.0f}};
     CHECK(count_degenerate({&needle, 1}) == 0);
 }
 

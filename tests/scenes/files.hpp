@@ -2,15 +2,15 @@
 /// Files that a test writes, and what is wrong with them.
 #pragma once
 
+#include "common/mesh.hpp"
+#include "common/program/error.hpp"
+
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
-
-#include "common/program/error.hpp"
-#include "common/mesh.hpp"
 
 namespace space::test {
 
@@ -43,7 +43,8 @@ class Folder {
     std::filesystem::path path_;
 };
 
-/// The line that the loader complains with; "loaded" if it does not, and why it is a bad complaint if it is one.
+/// The line that the loader complains with; "loaded" if it does not, and why it is a bad complaint
+/// if it is one.
 inline std::string complaint(const std::filesystem::path& file) {
     try {
         (void)load_mesh(file);
@@ -78,7 +79,8 @@ inline std::string binary_stl(std::span<const Triangle> triangles, std::uint32_t
     content += bytes(count);
     for (const Triangle& triangle : triangles) {
         content += std::string(12, '\0');
-        for (const Point3& p : {triangle.a, triangle.b, triangle.c}) content += bytes(p.x) + bytes(p.y) + bytes(p.z);
+        for (const Point3& p : {triangle.a, triangle.b, triangle.c})
+            content += bytes(p.x) + bytes(p.y) + bytes(p.z);
         content += std::string(2, '\0');
     }
     return content;

@@ -1,9 +1,10 @@
-// The seven segments give the sets that Heinonen16 publishes; all in integers, in quarters of a unit.
-#include <cmath>
-#include <string>
-
+// The seven segments give the sets that Heinonen16 publishes; all in integers, in quarters of a
+// unit.
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
+
+#include <cmath>
+#include <string>
 
 namespace space {
 namespace {
@@ -32,7 +33,8 @@ const Segment& named(char name) {
 std::string wholly(const std::string& names, char splitter, int sign) {
     std::string found;
     for (const char name : names)
-        if (sign * side(named(splitter), named(name).a) > 0 && sign * side(named(splitter), named(name).b) > 0)
+        if (sign * side(named(splitter), named(name).a) > 0 &&
+            sign * side(named(splitter), named(name).b) > 0)
             found += name;
     return found;
 }
@@ -54,10 +56,12 @@ TEST_CASE("BSP splitters G, E, B, A give the sets of Heinonen16, figures 2 and 3
     CHECK(wholly("A", 'B', +1) == "A");
     CHECK(side(named('B'), named('C').a) < 0);  // B cuts C: its first end is behind,
     CHECK(side(named('B'), named('C').b) > 0);  // its second in front
-    CHECK(wholly("C", 'A', +1) == "C");         // so C1, its part in front of B, is wholly in front of A
+    CHECK(wholly("C", 'A', +1) == "C");  // so C1, its part in front of B, is wholly in front of A
 }
 
-TEST_CASE("k-d planes q, r, s, t, u, v give the sets of Heinonen16, figures 4 and 5, and cut nothing", "[scenes]") {
+TEST_CASE(
+    "k-d planes q, r, s, t, u, v give the sets of Heinonen16, figures 4 and 5, and cut nothing",
+    "[scenes]") {
     CHECK(beyond("ABCDEFG", 0, 8.0f, +1) == "CEFG");
     CHECK(beyond("ABCDEFG", 0, 8.0f, -1) == "ABD");
     CHECK(beyond("CEFG", 1, 6.5f, +1) == "CG");

@@ -1,12 +1,12 @@
 // Broken, lying and truncated mesh files: one line of complaint each, nothing else.
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/files.hpp"
+
 #include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <limits>
-
-#include "common/pcg32.hpp"
-#include "tests/catch.hpp"
-#include "tests/scenes/files.hpp"
 
 namespace space {
 namespace {
@@ -17,26 +17,30 @@ const std::string ply_head = "ply\nformat ascii 1.0\n";
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string list = "property list uchar int vertex_indices\nend_header\n";
 const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
-const std::string whole_ply = ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "3 0 1 2\n";
+const std::string whole_ply =
+    ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "3 0 1 2\n";
 const std::string whole_off = "OFF\n3 1 0\n" + points + "3 0 1 2\n";
 const std::string whole_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string whole_stl =
-    "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+    "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+    "0\nendloop\nendfacet\nendsolid "
     "one\n";
 const Triangle one{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-std::string binary_ply(const std::string& format, std::uint32_t vertices, std::uint32_t faces, const std::string& body,
-                       const std::string& length_type = "uchar") {
+std::string binary_ply(const std::string& format, std::uint32_t vertices, std::uint32_t faces,
+                       const std::string& body, const std::string& length_type = "uchar") {
     return fmt::format(
                "ply\nformat {} 1.0\nelement vertex {}\n{}element face {}\nproperty list {} int "
                "vertex_indices\nend_header\n",
                format, vertices, xyz, faces, length_type) +
            body;
 }
-const std::string little_points = bytes(0.0f) + bytes(0.0f) + bytes(0.0f) + bytes(1.0f) + bytes(0.0f) + bytes(0.0f) +
-                                  bytes(0.0f) + bytes(1.0f) + bytes(0.0f);
+const std::string little_points = bytes(0.0f) + bytes(0.0f) + bytes(0.0f) + bytes(1.0f) +
+                                  bytes(0.0f) + bytes(0.0f) + bytes(0.0f) + bytes(1.0f) +
+                                  bytes(0.0f);
 const std::string little_face = std::string("\3") + bytes(0) + bytes(1) + bytes(2);
-const std::string whole_binary_ply = binary_ply("binary_little_endian", 3, 1, little_points + little_face);
+const std::string whole_binary_ply =
+    binary_ply("binary_little_endian", 3, 1, little_points + little_face);
 
 TEST_CASE("the files that the hostile ones are made from load", "[mesh]") {
     const test::Folder folder;
@@ -49,7 +53,8 @@ TEST_CASE("the files that the hostile ones are made from load", "[mesh]") {
         CHECK(complaint(folder.write(name, content)) == "loaded");
 }
 
-TEST_CASE("each fault of a file is told in one line that names the file, the place and the fault", "[mesh]") {
+TEST_CASE("each fault of a file is told in one line that names the file, the place and the fault",
+          "[mesh]") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::string nan_point = bytes(0.0f) + bytes(nan) + bytes(0.0f);
     const std::string two_points = little_points.substr(0, 24);
@@ -68,23 +73,31 @@ TEST_CASE("each fault of a file is told in one line that names the file, the pla
          ":1: the file cannot be read"},
         {"prose.obj", "It was a dark and stormy night.\n", ":1: the file cannot be read"},
         {"no_faces.obj", "v 0 0 0\nv 1 0 0\n", ": the file has no faces"},
-        {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", ":5: vertex index 4, but the file has 3 vertices"},
+        {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n",
+         ":5: vertex index 4, but the file has 3 vertices"},
         {"zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", ":4: vertex index 0"},
-        {"negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -4 -2 -1\n", ":4: vertex index -4, but 3 vertices"},
-        {"huge_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967297\n", ":4: vertex index 4294967297"},
-        {"too_long_index.obj", "v 0 0 0\nf 1 2 99999999999999999999\n", ":2: '99999999999999999999' is not"},
+        {"negative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -4 -2 -1\n",
+         ":4: vertex index -4, but 3 vertices"},
+        {"huge_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967297\n",
+         ":4: vertex index 4294967297"},
+        {"too_long_index.obj", "v 0 0 0\nf 1 2 99999999999999999999\n",
+         ":2: '99999999999999999999' is not"},
         {"fraction.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1.5 2 3\n", ":4: '1.5' is not a corner"},
-        {"two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", ":4: a face needs three corners or more, this one has 2"},
-        {"nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", ":2: the coordinate 'nan' is not a finite float"},
+        {"two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n",
+         ":4: a face needs three corners or more, this one has 2"},
+        {"nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n",
+         ":2: the coordinate 'nan' is not a finite float"},
         {"inf.obj", "v 0 0 0\nv 1 0 -inf\nv 0 1 0\nf 1 2 3\n", ":2: the coordinate '-inf'"},
         {"overflow.obj", "v 0 0 0\nv 1 0 1e39\nv 0 1 0\nf 1 2 3\n", ":2: the coordinate '1e39'"},
-        {"overflow_double.obj", "v 0 0 0\nv 1 0 -1e999\nv 0 1 0\nf 1 2 3\n", ":2: the coordinate '-1e999'"},
+        {"overflow_double.obj", "v 0 0 0\nv 1 0 -1e999\nv 0 1 0\nf 1 2 3\n",
+         ":2: the coordinate '-1e999'"},
         {"word.obj", "v 0 0 zero\n", ":1: 'zero' is not a number"},
         {"flat.obj", "v 0 0\n", ":1: a vertex needs three coordinates"},
         {"continued.obj", "v 0 0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n9\n", ":5: vertex index 9"},
 
         {"garbage.off", "\x01\x02\x03", "does not begin with OFF"},
-        {"counts.off", "OFF\n2147483647 1 0\n" + points, ":2: the header promises 2147483647 vertices"},
+        {"counts.off", "OFF\n2147483647 1 0\n" + points,
+         ":2: the header promises 2147483647 vertices"},
         {"faces.off", "OFF\n3 2147483647 0\n" + points, ":2: the header promises 2147483647 faces"},
         {"edges.off", "OFF\n3 1 2147483647\n" + points, ":2: the header promises 2147483647 edges"},
         {"past_64_bits.off", "OFF\n99999999999999999999 1 0\n", "is not a number of vertices"},
@@ -92,11 +105,14 @@ TEST_CASE("each fault of a file is told in one line that names the file, the pla
         {"only_header.off", "OFF\n", "is not a number of vertices"},
         {"no_faces.off", "OFF\n3 0 0\n" + points, "the file has no faces"},
         {"truncated_points.off", "OFF\n4 1 0\n" + points, "the file ends after 3 of 4 vertices"},
-        {"truncated_faces.off", "OFF\n3 2 0\n" + points + "3 0 1 2\n", "the file ends after 1 of 2 faces"},
-        {"range.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n", ":6: vertex index 3, but the file has 3 vertices"},
+        {"truncated_faces.off", "OFF\n3 2 0\n" + points + "3 0 1 2\n",
+         "the file ends after 1 of 2 faces"},
+        {"range.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n",
+         ":6: vertex index 3, but the file has 3 vertices"},
         {"negative.off", "OFF\n3 1 0\n" + points + "3 0 1 -1\n", ":6: vertex index -1"},
         {"two.off", "OFF\n3 1 0\n" + points + "2 0 1\n", ":6: a face needs three corners"},
-        {"long_face.off", "OFF\n3 1 0\n" + points + "2000000000 0 1 2\n", ":6: the face has 3 corners, not 2000000000"},
+        {"long_face.off", "OFF\n3 1 0\n" + points + "2000000000 0 1 2\n",
+         ":6: the face has 3 corners, not 2000000000"},
         {"nan.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", ":4: the coordinate 'nan'"},
         {"binary.off", "OFF BINARY\n" + std::string(40, '\1'), "binary OFF files are not read"},
         {"four.off", "4OFF\n3 1 0\n" + points, "'4OFF' files are not read"},
@@ -104,77 +120,111 @@ TEST_CASE("each fault of a file is told in one line that names the file, the pla
         {"short.stl", "soli", "not an STL file"},
         {"garbage.stl", "\x01\x02\x03garbage", "not an STL file"},
         {"cut.stl", whole_stl.substr(0, 70), ""},
-        {"unended.stl", whole_stl.substr(0, whole_stl.size() - 13), "the file ends before 'endsolid'"},
+        {"unended.stl", whole_stl.substr(0, whole_stl.size() - 13),
+         "the file ends before 'endsolid'"},
         {"four_corners.stl",
-         "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\nendfacet\nendsolid\n",
+         "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 "
+         "0\nendfacet\nendsolid\n",
          ":7: a facet of 4 vertices"},
-        {"nan.stl", "solid\nfacet\nvertex 0 0 0\nvertex nan 0 0\nvertex 0 1 0\nendfacet\nendsolid\n",
+        {"nan.stl",
+         "solid\nfacet\nvertex 0 0 0\nvertex nan 0 0\nvertex 0 1 0\nendfacet\nendsolid\n",
          ":4: the coordinate 'nan'"},
         {"no_facets.stl", "solid nothing\nendsolid nothing\n", "the file has no faces"},
-        {"count.stl", test::binary_stl({&one, 1}, 2147483647), "the header promises 2147483647 triangles"},
-        {"most.stl", test::binary_stl({&one, 1}, 4294967295u), "the header promises 4294967295 triangles"},
+        {"count.stl", test::binary_stl({&one, 1}, 2147483647),
+         "the header promises 2147483647 triangles"},
+        {"most.stl", test::binary_stl({&one, 1}, 4294967295u),
+         "the header promises 4294967295 triangles"},
         {"cut_binary.stl", test::binary_stl({&one, 1}, 1).substr(0, 130),
          "the header promises 1 triangles, which take 134 bytes"},
         {"no_triangles.stl", test::binary_stl({}, 0), "the file has no faces"},
-        {"nan_binary.stl", test::binary_stl(std::vector{one, Triangle{{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}}}, 2),
+        {"nan_binary.stl",
+         test::binary_stl(std::vector{one, Triangle{{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}}}, 2),
          "triangle 1: the coordinate nan"},
 
         {"not.ply", "plywood\n", "does not begin with 'ply'"},
         {"cut_header.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "ends inside the header"},
         {"format.ply", "ply\nformat morse 1.0\nend_header\n", ":2: the second line"},
-        {"early.ply", ply_head + "property float x\nend_header\n", ":3: a property before the first element"},
-        {"type.ply", ply_head + "element vertex 1\nproperty quad x\nend_header\n", ":4: 'quad' is not a type of PLY"},
+        {"early.ply", ply_head + "property float x\nend_header\n",
+         ":3: a property before the first element"},
+        {"type.ply", ply_head + "element vertex 1\nproperty quad x\nend_header\n",
+         ":4: 'quad' is not a type of PLY"},
         {"minus.ply", ply_head + "element vertex -1\n", ":3: '-1' is not a number of elements"},
-        {"no_z.ply", ply_head + "element vertex 1\nproperty float x\nproperty float y\nelement face 1\n" + list,
+        {"no_z.ply",
+         ply_head + "element vertex 1\nproperty float x\nproperty float y\nelement face 1\n" + list,
          "no property z"},
         {"int_x.ply",
-         ply_head + "element vertex 1\nproperty int x\nproperty float y\nproperty float z\nelement face 1\n" + list,
+         ply_head +
+             "element vertex 1\nproperty int x\nproperty float y\nproperty float z\nelement face "
+             "1\n" +
+             list,
          "no property x of type float"},
-        {"no_list.ply", ply_head + "element vertex 3\n" + xyz + "element face 1\nproperty int material\nend_header\n",
+        {"no_list.ply",
+         ply_head + "element vertex 3\n" + xyz +
+             "element face 1\nproperty int material\nend_header\n",
          "no list of int"},
-        {"no_face.ply", ply_head + "element vertex 3\n" + xyz + "end_header\n" + points, "no element 'face'"},
-        {"no_vertex.ply", ply_head + "element face 1\n" + list + "3 0 1 2\n", "no element 'vertex'"},
+        {"no_face.ply", ply_head + "element vertex 3\n" + xyz + "end_header\n" + points,
+         "no element 'face'"},
+        {"no_vertex.ply", ply_head + "element face 1\n" + list + "3 0 1 2\n",
+         "no element 'vertex'"},
         {"nothing.ply", ply_head + "element vertex 3\n" + xyz + "element face 0\n" + list + points,
          "the file has no faces"},
         {"bare.ply",
-         ply_head + "element vertex 3\n" + xyz + "element void 9000000000000000000\nelement face 1\n" + list,
+         ply_head + "element vertex 3\n" + xyz +
+             "element void 9000000000000000000\nelement face 1\n" + list,
          "no properties"},
-        {"counts.ply", ply_head + "element vertex 2147483647\n" + xyz + "element face 1\n" + list + points,
+        {"counts.ply",
+         ply_head + "element vertex 2147483647\n" + xyz + "element face 1\n" + list + points,
          "promises 2147483647"},
-        {"faces.ply", ply_head + "element vertex 3\n" + xyz + "element face 2147483647\n" + list + points,
+        {"faces.ply",
+         ply_head + "element vertex 3\n" + xyz + "element face 2147483647\n" + list + points,
          "promises 2147483647"},
         {"cut.ply", whole_ply.substr(0, whole_ply.size() - 3), "the file ends inside face 0"},
-        {"range.ply", ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "3 0 1 3\n",
+        {"range.ply",
+         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "3 0 1 3\n",
          "face 0: vertex index 3, but the file has 3 vertices"},
-        {"negative.ply", ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "3 0 1 -1\n",
+        {"negative.ply",
+         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "3 0 1 -1\n",
          "face 0: vertex index -1"},
-        {"two.ply", ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "2 0 1\n",
+        {"two.ply",
+         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "2 0 1\n",
          "face 0 has 2 corners"},
-        {"long_list.ply", ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "256 0 1 2\n",
+        {"long_list.ply",
+         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "256 0 1 2\n",
          "'256' is not the length"},
         {"nan.ply",
-         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n",
+         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list +
+             "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n",
          ":11: the coordinate 'nan'"},
         {"overflow.ply",
-         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + "0 0 0\n3.5e38 0 0\n0 1 0\n3 0 1 2\n",
+         ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list +
+             "0 0 0\n3.5e38 0 0\n0 1 0\n3 0 1 2\n",
          ":11: the coordinate '3.5e38'"},
         {"big_counts.ply", binary_ply("binary_little_endian", 2147483647, 1, little_points),
          "promises 2147483647 of element 'vertex'"},
-        {"big_faces.ply", binary_ply("binary_little_endian", 3, 2147483647, little_points + little_face),
+        {"big_faces.ply",
+         binary_ply("binary_little_endian", 3, 2147483647, little_points + little_face),
          "promises 2147483647 of element 'face'"},
-        {"cut_points.ply", binary_ply("binary_little_endian", 3, 1, two_points), "promises 3 of element 'vertex'"},
-        {"cut_face.ply", binary_ply("binary_little_endian", 3, 1, little_points + little_face.substr(0, 9)),
+        {"cut_points.ply", binary_ply("binary_little_endian", 3, 1, two_points),
+         "promises 3 of element 'vertex'"},
+        {"cut_face.ply",
+         binary_ply("binary_little_endian", 3, 1, little_points + little_face.substr(0, 9)),
          "face 0 needs 12 bytes"},
-        {"list.ply", binary_ply("binary_little_endian", 3, 1, little_points + bytes(2147483647) + bytes(0), "int"),
+        {"list.ply",
+         binary_ply("binary_little_endian", 3, 1, little_points + bytes(2147483647) + bytes(0),
+                    "int"),
          "face 0 needs 8589934588 bytes"},
-        {"minus_list.ply", binary_ply("binary_little_endian", 3, 1, little_points + bytes(-1) + bytes(0), "int"),
+        {"minus_list.ply",
+         binary_ply("binary_little_endian", 3, 1, little_points + bytes(-1) + bytes(0), "int"),
          "negative length"},
         {"far_index.ply",
-         binary_ply("binary_little_endian", 3, 1, little_points + std::string("\3") + bytes(0) + bytes(1) + bytes(3)),
+         binary_ply("binary_little_endian", 3, 1,
+                    little_points + std::string("\3") + bytes(0) + bytes(1) + bytes(3)),
          "face 0: vertex index 3"},
-        {"nan_binary.ply", binary_ply("binary_little_endian", 3, 1, two_points + nan_point + little_face),
+        {"nan_binary.ply",
+         binary_ply("binary_little_endian", 3, 1, two_points + nan_point + little_face),
          "vertex 2 (0, nan, 0)"},
-        {"other_end.ply", binary_ply("binary_big_endian", 3, 1, little_points + little_face), "face 0: vertex index"},
+        {"other_end.ply", binary_ply("binary_big_endian", 3, 1, little_points + little_face),
+         "face 0: vertex index"},
     };
     const test::Folder folder;
     for (const Hostile& hostile : files) {
@@ -203,7 +253,8 @@ TEST_CASE("what is no regular, readable file is told in one line", "[mesh]") {
     }
 }
 
-TEST_CASE("truncated anywhere or with wrong bytes, a file gives a sound mesh or one line", "[mesh]") {
+TEST_CASE("truncated anywhere or with wrong bytes, a file gives a sound mesh or one line",
+          "[mesh]") {
     const test::Folder folder;
     std::string big_endian;
     for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
@@ -239,14 +290,16 @@ TEST_CASE("truncated anywhere or with wrong bytes, a file gives a sound mesh or 
     Pcg32 random(1);
     for (const auto& [name, content] : whole) {
         REQUIRE(complaint(folder.write(name, content)) == "loaded");
-        for (std::size_t size = 0; size < content.size(); ++size) check(name, content.substr(0, size));
+        for (std::size_t size = 0; size < content.size(); ++size)
+            check(name, content.substr(0, size));
         constexpr std::string_view nasty = "\n \t0123456789-+.e#/\\nfv\0\xff\x7f";
         for (int round = 0; round < 200; ++round) {
             std::string wrong = content;
             for (std::uint32_t i = 0, count = 1 + random.below(4); i < count; ++i) {
                 char& byte = wrong[random.below(static_cast<std::uint32_t>(wrong.size()))];
-                byte = random.below(2) ? nasty[random.below(static_cast<std::uint32_t>(nasty.size()))]
-                                       : static_cast<char>(random.next());
+                byte = random.below(2)
+                           ? nasty[random.below(static_cast<std::uint32_t>(nasty.size()))]
+                           : static_cast<char>(random.next());
             }
             check(name, wrong);
         }

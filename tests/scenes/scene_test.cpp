@@ -1,4 +1,10 @@
 // Scenes by name: what they promise about their triangles, cameras and sizes.
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/program/error.hpp"
+#include "common/scenes/shapes.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/files.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,12 +12,6 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
-
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/program/error.hpp"
-#include "common/scenes/shapes.hpp"
-#include "tests/catch.hpp"
-#include "tests/scenes/files.hpp"
 
 namespace space {
 namespace {
@@ -32,7 +32,8 @@ std::string spec(const SceneRecipe& recipe, std::size_t size) {
 std::uint64_t fingerprint(const TriangleMesh& mesh) {
     std::uint64_t hash = 14695981039346656037u;
     const auto mix = [&](std::uint32_t word) {
-        for (int shift = 0; shift < 32; shift += 8) hash = (hash ^ ((word >> shift) & 0xFF)) * 1099511628211u;
+        for (int shift = 0; shift < 32; shift += 8)
+            hash = (hash ^ ((word >> shift) & 0xFF)) * 1099511628211u;
     };
     for (const Point3& vertex : mesh.vertices)
         for (int axis = 0; axis < 3; ++axis) mix(std::bit_cast<std::uint32_t>(vertex[axis]));
@@ -51,18 +52,22 @@ bool is_closed(const TriangleMesh& mesh) {
         }
     std::sort(forward.begin(), forward.end());
     std::sort(backward.begin(), backward.end());
-    return forward == backward && std::adjacent_find(forward.begin(), forward.end()) == forward.end();
+    return forward == backward &&
+           std::adjacent_find(forward.begin(), forward.end()) == forward.end();
 }
 
 /// Six times the volume inside; positive if the front of the faces is outside.
 double six_volumes(const TriangleMesh& mesh) {
     double sum = 0.0;
-    for (const Triangle& t : mesh.triangles()) sum += glm::dot(Double3(t.a), glm::cross(Double3(t.b), Double3(t.c)));
+    for (const Triangle& t : mesh.triangles())
+        sum += glm::dot(Double3(t.a), glm::cross(Double3(t.b), Double3(t.c)));
     return sum;
 }
 
-TEST_CASE("every scene is sound: finite vertices, indices in range, a colour for each triangle, camera and lights",
-          "[scenes]") {
+TEST_CASE(
+    "every scene is sound: finite vertices, indices in range, a colour for each triangle, camera "
+    "and lights",
+    "[scenes]") {
     for (const SceneRecipe& recipe : own_recipes()) {
         INFO(recipe.name);
         const Scene scene = make_scene(recipe.name, 1, true);
@@ -70,7 +75,8 @@ TEST_CASE("every scene is sound: finite vertices, indices in range, a colour for
         CHECK(test::is_sound(scene.mesh));
         CHECK((scene.colors.empty() || scene.colors.size() == scene.mesh.faces.size()));
         for (const Color& color : scene.colors)
-            for (int channel = 0; channel < 3; ++channel) CHECK((color[channel] >= 0.0f && color[channel] <= 1.0f));
+            for (int channel = 0; channel < 3; ++channel)
+                CHECK((color[channel] >= 0.0f && color[channel] <= 1.0f));
         CHECK(is_finite<3>(scene.camera.eye));
         CHECK(scene.camera.eye != scene.camera.target);
         CHECK_FALSE(scene.lights.empty());
@@ -91,8 +97,9 @@ TEST_CASE("every camera sees its scene: at least a fifth of the rays hit", "[sce
         int hits = 0;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
-                hits +=
-                    closest_hit(naive, camera_ray(scene.camera, frame, x + 0.5, y + 0.5, width, height)).has_value();
+                hits += closest_hit(
+                            naive, camera_ray(scene.camera, frame, x + 0.5, y + 0.5, width, height))
+                            .has_value();
         INFO(recipe.name << ": " << hits << " of " << width * height);
         CHECK(5 * hits >= width * height);
     }
@@ -111,13 +118,17 @@ TEST_CASE("the number of triangles follows from the size", "[scenes]") {
     const std::map<std::string_view, Formula> formulas{
         {"room",
          [&](std::size_t n) {
-             return 4753 + teapot(n) + 60 * std::min<std::size_t>(n, 8) * std::min<std::size_t>(n, 8);
+             return 4753 + teapot(n) +
+                    60 * std::min<std::size_t>(n, 8) * std::min<std::size_t>(n, 8);
          }},
         {"sphereflake", sphereflake},
         {"tetra", [](std::size_t n) { return std::size_t{1} << 2 * n; }},
         {"tree", [](std::size_t n) { return 36 * ((std::size_t{2} << n) - 1) + 2; }},
         {"mount", [](std::size_t n) { return (std::size_t{2} << 2 * n) + 4 * 720; }},
-        {"lattice", [](std::size_t n) { return 180 * (n + 1) * (n + 1) * (n + 1) + 16 * 3 * n * (n + 1) * (n + 1); }},
+        {"lattice",
+         [](std::size_t n) {
+             return 180 * (n + 1) * (n + 1) * (n + 1) + 16 * 3 * n * (n + 1) * (n + 1);
+         }},
         {"shells", [](std::size_t n) { return 80 * ((std::size_t{180} << n) + 1); }},
         {"icosphere", [](std::size_t n) { return 20 * n * n; }},
         {"soup", [](std::size_t n) { return n; }},
@@ -131,11 +142,14 @@ TEST_CASE("the number of triangles follows from the size", "[scenes]") {
         for (std::size_t size = 1; size <= 3; ++size) {
             INFO(spec(recipe, size));
             REQUIRE(formulas.count(recipe.name) == 1);
-            CHECK(make_scene(spec(recipe, size)).mesh.faces.size() == formulas.at(recipe.name)(size));
+            CHECK(make_scene(spec(recipe, size)).mesh.faces.size() ==
+                  formulas.at(recipe.name)(size));
         }
 }
 
-TEST_CASE("the icosphere of frequency 300 has 1,800,000 triangles and 900,002 vertices and is closed", "[scenes]") {
+TEST_CASE(
+    "the icosphere of frequency 300 has 1,800,000 triangles and 900,002 vertices and is closed",
+    "[scenes]") {
     const TriangleMesh mesh = make_scene("icosphere:300").mesh;
     CHECK(mesh.faces.size() == 1'800'000);
     CHECK(mesh.vertices.size() == 900'002);
@@ -148,7 +162,8 @@ TEST_CASE("solids are closed and their front is outside", "[scenes]") {
         CHECK(sphere.vertices.size() == 10 * frequency * frequency + 2);
         CHECK(is_closed(sphere));
         CHECK(six_volumes(sphere) > 0.0);
-        for (const Point3& vertex : sphere.vertices) CHECK(glm::length(Double3(vertex)) == Approx(1.0).epsilon(1e-7));
+        for (const Point3& vertex : sphere.vertices)
+            CHECK(glm::length(Double3(vertex)) == Approx(1.0).epsilon(1e-7));
     }
     const TriangleMesh cube = box({1, 2, 3}, {2, 4, 6});
     CHECK(is_closed(cube));
@@ -175,15 +190,19 @@ TEST_CASE("a rotation turns by the right hand", "[scenes]") {
     CHECK(glm::determinant(m) == Approx(1.0));
 }
 
-TEST_CASE("the same name, size and seed give the same scene, bit for bit; another seed another one", "[scenes]") {
+TEST_CASE("the same name, size and seed give the same scene, bit for bit; another seed another one",
+          "[scenes]") {
     for (const SceneRecipe& recipe : own_recipes()) {
         INFO(recipe.name);
-        const Scene scene = make_scene(recipe.name, 7, true), again = make_scene(spec(recipe, recipe.small_size), 7);
+        const Scene scene = make_scene(recipe.name, 7, true),
+                    again = make_scene(spec(recipe, recipe.small_size), 7);
         CHECK(fingerprint(scene.mesh) == fingerprint(again.mesh));
         CHECK(scene.colors == again.colors);
-        const bool random = recipe.name == "soup" || recipe.name == "soup_uneven" || recipe.name == "slivers" ||
-                            recipe.name == "boxes" || recipe.name == "mount";
-        CHECK((fingerprint(make_scene(recipe.name, 8, true).mesh) != fingerprint(scene.mesh)) == random);
+        const bool random = recipe.name == "soup" || recipe.name == "soup_uneven" ||
+                            recipe.name == "slivers" || recipe.name == "boxes" ||
+                            recipe.name == "mount";
+        CHECK((fingerprint(make_scene(recipe.name, 8, true).mesh) != fingerprint(scene.mesh)) ==
+              random);
     }
 }
 
@@ -195,7 +214,9 @@ TEST_CASE("scenes have the published bytes, with every compiler and machine", "[
     CHECK(fingerprint(make_scene("tetra:5").mesh) == 0x0946d4941295c6e5u);
 }
 
-TEST_CASE("equal triangles of the soup are equal, those of the uneven soup differ by orders of magnitude", "[scenes]") {
+TEST_CASE(
+    "equal triangles of the soup are equal, those of the uneven soup differ by orders of magnitude",
+    "[scenes]") {
     const auto areas = [](const char* name) {
         std::vector<double> result;
         for (const Triangle& triangle : make_scene(name).mesh.triangles())
@@ -215,12 +236,15 @@ TEST_CASE("boxes are axis-aligned", "[scenes]") {
     }
 }
 
-TEST_CASE("the stadium is nearly empty: its teapot has nearly all triangles and a hundredth of the length",
-          "[scenes]") {
+TEST_CASE(
+    "the stadium is nearly empty: its teapot has nearly all triangles and a hundredth of the "
+    "length",
+    "[scenes]") {
     const TriangleMesh mesh = make_scene("stadium").mesh;
     const double hall = bounds(mesh).extent().x;
     std::size_t near = 0;
-    for (const Triangle& triangle : mesh.triangles()) near += glm::length(Double3(triangle.a)) < 0.02 * hall;
+    for (const Triangle& triangle : mesh.triangles())
+        near += glm::length(Double3(triangle.a)) < 0.02 * hall;
     CHECK(double(near) > 0.95 * double(mesh.faces.size()));
 }
 
@@ -234,15 +258,18 @@ std::string complaint_about(const std::string& name, ExitCode expected) {
 }
 
 TEST_CASE("absurd sizes are a usage error that names the range", "[scenes]") {
-    for (const char* size : {"0", "1001", "-1", "", "x", "1e2", "3.5", " 3", "3 ", "0x10", "99999999999999999999"}) {
+    for (const char* size :
+         {"0", "1001", "-1", "", "x", "1e2", "3.5", " 3", "3 ", "0x10", "99999999999999999999"}) {
         INFO(size);
-        CHECK(complaint_about(fmt::format("icosphere:{}", size), ExitCode::usage) ==
-              fmt::format("scene icosphere: the size must be a whole number from 1 to 1000, not '{}'", size));
+        CHECK(
+            complaint_about(fmt::format("icosphere:{}", size), ExitCode::usage) ==
+            fmt::format("scene icosphere: the size must be a whole number from 1 to 1000, not '{}'",
+                        size));
     }
     CHECK(complaint_about("bunny:3", ExitCode::usage) == "scene bunny: it has no size, '3'");
     for (const SceneRecipe& recipe : own_recipes())
-        CHECK(complaint_about(spec(recipe, std::size_t{recipe.max_size} + 1), ExitCode::usage).find("from 1 to") !=
-              std::string::npos);
+        CHECK(complaint_about(spec(recipe, std::size_t{recipe.max_size} + 1), ExitCode::usage)
+                  .find("from 1 to") != std::string::npos);
 }
 
 TEST_CASE("a scene whose file is not there says how to get it", "[scenes]") {
@@ -269,11 +296,15 @@ TEST_CASE("the optional scenes are seen by their cameras, where they are", "[sce
     }
 }
 
-TEST_CASE("an unknown name is a usage error that lists the names; a missing file an input error", "[scenes]") {
+TEST_CASE("an unknown name is a usage error that lists the names; a missing file an input error",
+          "[scenes]") {
     for (const char* name : {"nonsense", "", ":", ":3", "Room", "roo"})
-        CHECK(complaint_about(name, ExitCode::usage).find("room, sphereflake") != std::string::npos);
-    CHECK(complaint_about("missing.ply", ExitCode::bad_input) == "missing.ply: No such file or directory");
-    CHECK(complaint_about("room:missing.ply", ExitCode::bad_input) == "missing.ply: No such file or directory");
+        CHECK(complaint_about(name, ExitCode::usage).find("room, sphereflake") !=
+              std::string::npos);
+    CHECK(complaint_about("missing.ply", ExitCode::bad_input) ==
+          "missing.ply: No such file or directory");
+    CHECK(complaint_about("room:missing.ply", ExitCode::bad_input) ==
+          "missing.ply: No such file or directory");
 }
 
 /// Where a point lies in a picture as high as wide: inside if both are in -1 .. 1.
@@ -289,7 +320,8 @@ TEST_CASE("a mesh file of any size and place is framed whole", "[scenes]") {
     for (const double size : {1e-12, 1.0, 1e12})
         for (const double shift : {0.0, 1.0, 30.0}) {
             const TriangleMesh mesh =
-                transformed(teapot(2), glm::dmat3(size), Double3{shift * size, -shift * size, 0.5 * shift * size});
+                transformed(teapot(2), glm::dmat3(size),
+                            Double3{shift * size, -shift * size, 0.5 * shift * size});
             write_ply(folder.path() / "mesh.ply", mesh);
             const Scene scene = make_scene((folder.path() / "mesh.ply").string());
             double widest = 0.0;
@@ -303,7 +335,8 @@ TEST_CASE("a mesh file of any size and place is framed whole", "[scenes]") {
         }
 }
 
-TEST_CASE("a mesh without extent and one at the end of the floats get a finite camera", "[scenes]") {
+TEST_CASE("a mesh without extent and one at the end of the floats get a finite camera",
+          "[scenes]") {
     for (const float far : {0.0f, 1.0f, 1e37f}) {
         Scene scene;
         scene.mesh.vertices = {Point3{1.0f}, Point3{1.0f}, Point3{1.0f + far, 1.0f, 1.0f}};
@@ -321,7 +354,8 @@ TEST_CASE("any mesh is put on the room's table, whatever its size", "[scenes]") 
         write_ply(folder.path() / "mesh.ply", mesh);
         const Scene scene = make_scene("room:" + (folder.path() / "mesh.ply").string());
         Aabb box;
-        for (std::size_t i = scene.mesh.vertices.size() - mesh.vertices.size(); i < scene.mesh.vertices.size(); ++i)
+        for (std::size_t i = scene.mesh.vertices.size() - mesh.vertices.size();
+             i < scene.mesh.vertices.size(); ++i)
             box.extend(scene.mesh.vertices[i]);
         CHECK(box.min.y == Approx(0.74));
         CHECK(box.extent().y == Approx(0.55).epsilon(1e-3));

@@ -1,12 +1,24 @@
 /// @file
-/// The suite that every structure of the book goes through. It compares a structure, ray by ray and bit for bit, with
-/// the naive loop over the same triangle test, in scenes and on rays where structures fail, and asks the exact oracle
-/// about a part of the rays. What it finds it calls by name.
+/// The suite that every structure of the book goes through. It compares a structure, ray by ray and
+/// bit for bit, with the naive loop over the same triangle test, in scenes and on rays where
+/// structures fail, and asks the exact oracle about a part of the rays. What it finds it calls by
+/// name.
 ///
 ///     TEST_CASE("the suite: k-d tree") {
-///         check_accelerator<KdTree>("k-d tree", [](std::span<const Triangle> t) { return KdTree::build(t, {}); });
+///         check_accelerator<KdTree>("k-d tree", [](std::span<const Triangle> t) { return
+///         KdTree::build(t, {}); });
 ///     }
 #pragma once
+
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/accelerator.hpp"
+#include "common/measure.hpp"
+#include "common/parallel.hpp"
+#include "common/program/report.hpp"
+#include "tests/catch.hpp"
+#include "tests/oracle/compare.hpp"
+#include "tests/suite/adversarial_scenes.hpp"
+#include "tests/suite/test_rays.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -23,16 +35,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/accelerator.hpp"
-#include "common/measure.hpp"
-#include "common/parallel.hpp"
-#include "common/program/report.hpp"
-#include "tests/catch.hpp"
-#include "tests/oracle/compare.hpp"
-#include "tests/suite/adversarial_scenes.hpp"
-#include "tests/suite/test_rays.hpp"
-
 namespace space {
 
 /// The names of what can be wrong.
@@ -42,8 +44,10 @@ inline constexpr std::string_view crashes = "crashes";
 inline constexpr std::string_view hangs = "hangs";
 inline constexpr std::string_view throws = "throws";
 inline constexpr std::string_view drops_a_triangle = "drops a triangle";  // no ray ever finds it
-inline constexpr std::string_view prunes_too_early = "prunes too early";  // found alone, lost beside others
-inline constexpr std::string_view misses_a_hit = "misses a hit";          // lost on some rays, found on others
+inline constexpr std::string_view prunes_too_early =
+    "prunes too early";  // found alone, lost beside others
+inline constexpr std::string_view misses_a_hit =
+    "misses a hit";  // lost on some rays, found on others
 inline constexpr std::string_view invents_a_hit = "reports a hit that is none";
 inline constexpr std::string_view ignores_tmin = "ignores tmin";
 inline constexpr std::string_view ignores_tmax = "ignores tmax";
@@ -60,7 +64,8 @@ inline constexpr std::string_view counting_matters = "counting changes the answe
 inline constexpr std::string_view counts_nothing = "does not count";
 inline constexpr std::string_view wrong_shape = "shape is inconsistent";
 inline constexpr std::string_view builds_differ = "the same build gives another tree";
-inline constexpr std::string_view threads_matter = "answers depend on other threads or earlier rays";
+inline constexpr std::string_view threads_matter =
+    "answers depend on other threads or earlier rays";
 inline constexpr std::string_view beyond_exact = "errs beyond the bound of its triangle test";
 }  // namespace fault
 
@@ -71,8 +76,8 @@ struct Failure {
     std::size_t times = 1;  ///< in this scene
 
     std::string text() const {
-        return fmt::format("{} [scene \"{}\", {} {}]: {}", fault, scene, times, times == 1 ? "time" : "times",
-                           diagnosis);
+        return fmt::format("{} [scene \"{}\", {} {}]: {}", fault, scene, times,
+                           times == 1 ? "time" : "times", diagnosis);
     }
 };
 
@@ -86,8 +91,8 @@ struct SuiteReport {
                            [&](const Failure& failure) { return failure.fault == fault; });
     }
     std::string text() const {
-        std::string text =
-            fmt::format("{} scenes, {} rays; exact oracle: {}\n", scenes, with_commas(rays), exact.text());
+        std::string text = fmt::format("{} scenes, {} rays; exact oracle: {}\n", scenes,
+                                       with_commas(rays), exact.text());
         for (const Failure& failure : failures) text += "  " + failure.text() + "\n";
         return text;
     }
@@ -101,10 +106,12 @@ struct SuiteOptions {
     int aimed_rays = 10'000;  ///< at edges and vertices, per scene
     int other_rays = 400;     ///< of each other kind, per scene
 #endif
-    int exact_rays = 100;    ///< about so many per scene for the exact oracle
-    unsigned patience = 60;  ///< seconds that a scene may take in the child before it counts as hanging
-    /// Tries each scene in a child process first, so that a crash or a hang becomes a failure with a name. Not for
-    /// structures whose builders keep threads of a library alive: a child has none of them.
+    int exact_rays = 100;  ///< about so many per scene for the exact oracle
+    unsigned patience =
+        60;  ///< seconds that a scene may take in the child before it counts as hanging
+    /// Tries each scene in a child process first, so that a crash or a hang becomes a failure with
+    /// a name. Not for structures whose builders keep threads of a library alive: a child has none
+    /// of them.
     bool in_child = true;
     std::vector<TestScene> scenes = adversarial_scenes();
 };
@@ -112,17 +119,21 @@ struct SuiteOptions {
 namespace detail {
 
 inline bool same_bits(const std::optional<Hit>& x, const std::optional<Hit>& y) {
-    const auto bits = [](const Hit& hit) { return std::bit_cast<std::array<std::uint32_t, 4>>(hit); };
+    const auto bits = [](const Hit& hit) {
+        return std::bit_cast<std::array<std::uint32_t, 4>>(hit);
+    };
     return x.has_value() == y.has_value() && (!x || bits(*x) == bits(*y));
 }
 
 inline std::string words(const Ray& ray) {
-    return fmt::format("origin ({:.9g}, {:.9g}, {:.9g}) direction ({:.9g}, {:.9g}, {:.9g}) [{:.9g}, {:.9g}]",
-                       ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z,
-                       ray.tmin, ray.tmax);
+    return fmt::format(
+        "origin ({:.9g}, {:.9g}, {:.9g}) direction ({:.9g}, {:.9g}, {:.9g}) [{:.9g}, {:.9g}]",
+        ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z,
+        ray.tmin, ray.tmax);
 }
 inline std::string words(const std::optional<Hit>& hit) {
-    return hit ? fmt::format("triangle {} at t = {:.9g}, u = {:.9g}, v = {:.9g}", hit->triangle, hit->t, hit->u, hit->v)
+    return hit ? fmt::format("triangle {} at t = {:.9g}, u = {:.9g}, v = {:.9g}", hit->triangle,
+                             hit->t, hit->u, hit->v)
                : "none";
 }
 
@@ -134,7 +145,8 @@ Fate fate_in_child(const Body& body, unsigned patience) {
     constexpr int threw = 99;
     const pid_t child = ::fork();
     if (child == 0) {
-        for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGTERM}) std::signal(signal, SIG_DFL);
+        for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGTERM})
+            std::signal(signal, SIG_DFL);
         ::alarm(patience);
         try {
             body();
@@ -147,13 +159,16 @@ Fate fate_in_child(const Body& body, unsigned patience) {
     if (child < 0 || ::waitpid(child, &status, 0) != child)
         return Fate::survived;  // no child to be had: in this process, then
     if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? Fate::hung : Fate::crashed;
-    return WEXITSTATUS(status) == 0 ? Fate::survived : WEXITSTATUS(status) == threw ? Fate::threw : Fate::crashed;
+    return WEXITSTATUS(status) == 0       ? Fate::survived
+           : WEXITSTATUS(status) == threw ? Fate::threw
+                                          : Fate::crashed;
 }
 
 template <Accelerator A, TriangleTest Test, class Build>
 class Examination {
   public:
-    Examination(const Build& build, const SuiteOptions& options) : build_(build), options_(options) {}
+    Examination(const Build& build, const SuiteOptions& options)
+        : build_(build), options_(options) {}
 
     SuiteReport run() {
         for (const TestScene& scene : options_.scenes) {
@@ -238,9 +253,10 @@ class Examination {
                 }
             },
             options_.patience);
-        const std::string where =
-            fmt::format("building it from {} triangles and asking it a few rays", scene_->triangles.size());
-        if (fate == Fate::crashed) fail(scene_->triangles.empty() ? fault::crashes_on_empty : fault::crashes, where);
+        const std::string where = fmt::format(
+            "building it from {} triangles and asking it a few rays", scene_->triangles.size());
+        if (fate == Fate::crashed)
+            fail(scene_->triangles.empty() ? fault::crashes_on_empty : fault::crashes, where);
         if (fate == Fate::hung) fail(fault::hangs, where);
         if (fate == Fate::threw) fail(fault::throws, where);
         return fate == Fate::survived;
@@ -249,22 +265,25 @@ class Examination {
     void check_shape(const TreeShape& shape) {
         const auto require = [&](bool holds, std::string_view rule) {
             if (!holds)
-                fail(fault::wrong_shape, fmt::format("{}: nodes {}, leaves {}, depth {}, references {}, bytes {}", rule,
-                                                     shape.nodes.value_or(0), shape.leaves.value_or(0),
-                                                     shape.depth.value_or(0), shape.references, shape.bytes));
+                fail(fault::wrong_shape,
+                     fmt::format("{}: nodes {}, leaves {}, depth {}, references {}, bytes {}", rule,
+                                 shape.nodes.value_or(0), shape.leaves.value_or(0),
+                                 shape.depth.value_or(0), shape.references, shape.bytes));
         };
         if (shape.nodes && shape.leaves) {
             require(*shape.leaves <= *shape.nodes, "no more leaves than nodes");
             require(*shape.nodes == 0 || *shape.leaves > 0, "a tree has a leaf");
         }
         if (shape.nodes && shape.depth)
-            require(*shape.depth <= (*shape.nodes ? *shape.nodes - 1 : 0), "a path has no more edges than nodes");
+            require(*shape.depth <= (*shape.nodes ? *shape.nodes - 1 : 0),
+                    "a path has no more edges than nodes");
         if (shape.sah_cost)
-            require(std::isfinite(*shape.sah_cost) && *shape.sah_cost >= 0.0, "the cost is a number, and not negative");
+            require(std::isfinite(*shape.sah_cost) && *shape.sah_cost >= 0.0,
+                    "the cost is a number, and not negative");
         require(shape.bytes > 0, "it takes memory");
-        const auto with_area =
-            static_cast<std::size_t>(std::count_if(scene_->triangles.begin(), scene_->triangles.end(),
-                                                   [](const Triangle& t) { return normal(t) != Double3(0.0); }));
+        const auto with_area = static_cast<std::size_t>(
+            std::count_if(scene_->triangles.begin(), scene_->triangles.end(),
+                          [](const Triangle& t) { return normal(t) != Double3(0.0); }));
         require(shape.references >= with_area, "each triangle with an area is in a leaf");
     }
 
@@ -276,25 +295,31 @@ class Examination {
     std::vector<Answer> check_answers(const A& accelerator, const Reference& reference,
                                       const std::vector<TestRay>& rays) {
         // Which triangles are the nearest for some ray, and which of those are found.
-        std::vector<bool> expected_once(scene_->triangles.size()), found_once(scene_->triangles.size());
+        std::vector<bool> expected_once(scene_->triangles.size()),
+            found_once(scene_->triangles.size());
         std::vector<Mismatch> mismatches;
         std::vector<Answer> answers;
         for (const TestRay& test : rays) {
             const Ray& ray = test.ray;
-            const Answer expected = closest_hit(reference, ray), got = closest_hit(accelerator, ray);
+            const Answer expected = closest_hit(reference, ray),
+                         got = closest_hit(accelerator, ray);
             answers.push_back(got);
             if (expected) expected_once[expected->triangle] = true;
             if (got && got->triangle < found_once.size()) found_once[got->triangle] = true;
             if (!same_bits(expected, got)) mismatches.push_back({&test, expected, got});
 
             TraversalCounts counts, any_counts;
-            if (const Answer counted = accelerator.closest_hit(ray, counts); !same_bits(counted, got))
+            if (const Answer counted = accelerator.closest_hit(ray, counts);
+                !same_bits(counted, got))
                 fail(fault::counting_matters, described({&test, got, counted}));
-            if (got && counts.triangles_tested == 0) fail(fault::counts_nothing, described({&test, expected, got}));
+            if (got && counts.triangles_tested == 0)
+                fail(fault::counts_nothing, described({&test, expected, got}));
             const bool any = any_hit(accelerator, ray);
             if (any != accelerator.any_hit(ray, any_counts))
-                fail(fault::counting_matters, fmt::format("any_hit of the {} ray {}", test.kind, words(ray)));
-            if (any != expected.has_value()) fail(any_fault(reference, ray, any), described_any(test, any));
+                fail(fault::counting_matters,
+                     fmt::format("any_hit of the {} ray {}", test.kind, words(ray)));
+            if (any != expected.has_value())
+                fail(any_fault(reference, ray, any), described_any(test, any));
         }
         for (const Mismatch& mismatch : mismatches) {
             const bool dropped = mismatch.expected && expected_once[mismatch.expected->triangle] &&
@@ -304,20 +329,24 @@ class Examination {
         return answers;
     }
 
-    std::string_view closest_fault(const A& accelerator, const Mismatch& mismatch, bool dropped) const {
+    std::string_view closest_fault(const A& accelerator, const Mismatch& mismatch,
+                                   bool dropped) const {
         const auto& [test, expected, got] = mismatch;
         const Ray& ray = test->ray;
         if (got && !is_valid(ray)) return fault::answers_invalid_ray;
         if (got && got->t < ray.tmin) return fault::ignores_tmin;
         if (got && got->t > ray.tmax) return fault::ignores_tmax;
         if (!expected || (got && nearer(*got, *expected))) return fault::invents_a_hit;
-        if (got && got->t == expected->t && got->triangle == expected->triangle) return fault::stale_uv;
-        // Lost: ask for it alone, and with the interval a little wider where it lies at an end of it.
+        if (got && got->t == expected->t && got->triangle == expected->triangle)
+            return fault::stale_uv;
+        // Lost: ask for it alone, and with the interval a little wider where it lies at an end of
+        // it.
         const auto finds = [&](float tmin, float tmax) {
             const Answer hit = closest_hit(accelerator, Ray{ray.origin, ray.direction, tmin, tmax});
             return hit && hit->t == expected->t;
         };
-        const float t = expected->t, before = std::nextafter(t, -infinity), after = std::nextafter(t, infinity);
+        const float t = expected->t, before = std::nextafter(t, -infinity),
+                    after = std::nextafter(t, infinity);
         const bool closed = finds(t, t);
         if (!closed && finds(before, after)) return fault::open_interval;
         if (got && got->t == expected->t) return fault::forgets_ties;
@@ -331,34 +360,40 @@ class Examination {
         const bool below = any_hit(reference, {ray.origin, ray.direction, -infinity, ray.tmax});
         const bool above = any_hit(reference, {ray.origin, ray.direction, ray.tmin, infinity});
         if (below && above) return fault::any_ignores_interval;
-        return below ? fault::any_ignores_tmin : above ? fault::any_ignores_tmax : fault::any_invents_a_hit;
+        return below   ? fault::any_ignores_tmin
+               : above ? fault::any_ignores_tmax
+                       : fault::any_invents_a_hit;
     }
 
     std::string described(const Mismatch& m) const {
-        return fmt::format("{} ray {}: expected {}, got {}", m.ray->kind, words(m.ray->ray), words(m.expected),
-                           words(m.got));
+        return fmt::format("{} ray {}: expected {}, got {}", m.ray->kind, words(m.ray->ray),
+                           words(m.expected), words(m.got));
     }
     std::string described_any(const TestRay& test, bool any) const {
         return fmt::format("{} ray {}: any_hit is {}", test.kind, words(test.ray), any);
     }
 
-    /// Built again and asked from several threads at once, it has the same shape and gives the same answers.
+    /// Built again and asked from several threads at once, it has the same shape and gives the same
+    /// answers.
     void check_second_build(const A& accelerator, const std::vector<Answer>& answers,
                             const std::vector<TestRay>& rays) {
         const A second = build_(scene_->triangles);
         std::vector<Answer> again(rays.size());
-        parallel_for(rays.size(), 4, 64, [&](std::size_t i) { again[i] = closest_hit(second, rays[i].ray); });
+        parallel_for(rays.size(), 4, 64,
+                     [&](std::size_t i) { again[i] = closest_hit(second, rays[i].ray); });
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (same_bits(answers[i], again[i])) continue;
             const bool alone_too = !same_bits(answers[i], closest_hit(second, rays[i].ray)) &&
                                    same_bits(answers[i], closest_hit(accelerator, rays[i].ray));
-            fail(alone_too ? fault::builds_differ : fault::threads_matter, described({&rays[i], answers[i], again[i]}));
+            fail(alone_too ? fault::builds_differ : fault::threads_matter,
+                 described({&rays[i], answers[i], again[i]}));
         }
         const TreeShape x = accelerator.shape(), y = second.shape();
-        if (x.nodes != y.nodes || x.leaves != y.leaves || x.depth != y.depth || x.references != y.references ||
-            x.sah_cost != y.sah_cost)
-            fail(fault::builds_differ, fmt::format("nodes {} and {}, references {} and {}", x.nodes.value_or(0),
-                                                   y.nodes.value_or(0), x.references, y.references));
+        if (x.nodes != y.nodes || x.leaves != y.leaves || x.depth != y.depth ||
+            x.references != y.references || x.sah_cost != y.sah_cost)
+            fail(fault::builds_differ,
+                 fmt::format("nodes {} and {}, references {} and {}", x.nodes.value_or(0),
+                             y.nodes.value_or(0), x.references, y.references));
     }
 
     void check_exactly(const std::vector<Answer>& answers, const std::vector<TestRay>& rays) {
@@ -373,8 +408,9 @@ class Examination {
             report_.exact.add(comparison);
             // The bound is that of Möller-Trumbore in double.
             if (std::is_same_v<Test, MollerTrumbore> && comparison.beyond_bound)
-                fail(fault::beyond_exact, fmt::format("{}: {} ray {}: got {}", name(comparison.agreement), rays[i].kind,
-                                                      words(rays[i].ray), words(answers[i])));
+                fail(fault::beyond_exact,
+                     fmt::format("{}: {} ray {}: got {}", name(comparison.agreement), rays[i].kind,
+                                 words(rays[i].ray), words(answers[i])));
         }
     }
 
@@ -392,13 +428,15 @@ SuiteReport examine_accelerator(const Build& build, const SuiteOptions& options 
     return detail::Examination<A, Test, Build>(build, options).run();
 }
 
-/// Fails the test for everything that the suite finds, and prints what was compared. `build` makes an A from a
-/// std::span<const Triangle>; Test is the triangle test that the structure uses.
+/// Fails the test for everything that the suite finds, and prints what was compared. `build` makes
+/// an A from a std::span<const Triangle>; Test is the triangle test that the structure uses.
 template <Accelerator A, TriangleTest Test = MollerTrumbore, class Build>
-SuiteReport check_accelerator(std::string_view name, const Build& build, const SuiteOptions& options = {}) {
+SuiteReport check_accelerator(std::string_view name, const Build& build,
+                              const SuiteOptions& options = {}) {
     SuiteReport report = examine_accelerator<A, Test>(build, options);
     fmt::print("{}: {}", name, report.text());
-    for (const Failure& failure : report.failures) FAIL_CHECK(std::string(name) << ": " << failure.text());
+    for (const Failure& failure : report.failures)
+        FAIL_CHECK(std::string(name) << ": " << failure.text());
     CHECK(report.scenes == options.scenes.size());
     return report;
 }

@@ -2,14 +2,15 @@
 /// Small scenes on which structures fail (the reasons stand with each), the same on every machine.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <glm/common.hpp>
-#include <string>
-#include <vector>
-
 #include "common/geometry.hpp"
 #include "common/pcg32.hpp"
+
+#include <glm/common.hpp>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace space {
 
@@ -21,7 +22,8 @@ struct TestScene {
 namespace scenes {
 
 inline Point3 random_point(Pcg32& random, float low, float high) {
-    const float x = random.uniform(low, high), y = random.uniform(low, high), z = random.uniform(low, high);
+    const float x = random.uniform(low, high), y = random.uniform(low, high),
+                z = random.uniform(low, high);
     return {x, y, z};
 }
 
@@ -31,7 +33,8 @@ inline std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Point3 middle = random_point(random, 0.0f, 1.0f);
-        const Point3 a = middle + random_point(random, -size, size), b = middle + random_point(random, -size, size);
+        const Point3 a = middle + random_point(random, -size, size),
+                     b = middle + random_point(random, -size, size);
         triangles.push_back({a, b, middle + random_point(random, -size, size)});
     }
     return triangles;
@@ -43,7 +46,8 @@ std::vector<Triangle> mapped(std::vector<Triangle> triangles, const Map& map) {
     return triangles;
 }
 
-/// Two triangles for each cell of a grid over heights(i, j): neighbours share edges and vertices exactly.
+/// Two triangles for each cell of a grid over heights(i, j): neighbours share edges and vertices
+/// exactly.
 template <class PointAt>
 std::vector<Triangle> sheet(int columns, int rows, const PointAt& at) {
     std::vector<Triangle> triangles;
@@ -55,7 +59,8 @@ std::vector<Triangle> sheet(int columns, int rows, const PointAt& at) {
     return triangles;
 }
 
-/// A closed bumpy ball: an octahedron, cut `levels` times into four, its vertices pushed outwards by their direction.
+/// A closed bumpy ball: an octahedron, cut `levels` times into four, its vertices pushed outwards
+/// by their direction.
 inline std::vector<Triangle> ball(int levels) {
     std::vector<Triangle> triangles;
     for (const float x : {-1.0f, 1.0f})
@@ -68,7 +73,8 @@ inline std::vector<Triangle> ball(int levels) {
         std::vector<Triangle> finer;
         for (const auto& [a, b, c] : triangles) {
             const Point3 ab = (a + b) * 0.5f, bc = (b + c) * 0.5f, ca = (c + a) * 0.5f;
-            for (const Triangle& part : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+            for (const Triangle& part :
+                 {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
                 finer.push_back(part);
         }
         triangles = std::move(finer);
@@ -84,8 +90,12 @@ inline void add_box(std::vector<Triangle>& triangles, const Point3& low, const P
     const auto corner = [&](int i) {
         return Point3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
     };
-    for (const auto& [a, b, c, d] :
-         {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    for (const auto& [a, b, c, d] : {std::array{0, 4, 6, 2},
+                                     {1, 3, 7, 5},
+                                     {0, 1, 5, 4},
+                                     {2, 6, 7, 3},
+                                     {0, 2, 3, 1},
+                                     {4, 5, 7, 6}}) {
         triangles.push_back({corner(a), corner(b), corner(c)});
         triangles.push_back({corner(a), corner(c), corner(d)});
     }
@@ -117,7 +127,8 @@ inline std::vector<TestScene> adversarial_scenes() {
         }
         add("uneven", std::move(triangles));
     }
-    // Whole numbers: rays and splits meet edges, vertices and planes exactly, many triangles have no area.
+    // Whole numbers: rays and splits meet edges, vertices and planes exactly, many triangles have
+    // no area.
     {
         Pcg32 random(5);
         const auto coordinate = [&] { return static_cast<float>(random.below(5)); };
@@ -133,8 +144,10 @@ inline std::vector<TestScene> adversarial_scenes() {
         add("whole numbers", std::move(triangles));
     }
     // One plane: boxes without thickness, a root without volume, equal t everywhere they overlap.
-    add("coplanar", mapped(soup(80, 0.3f, 6), [](const Point3& p) { return Point3(p.x, p.y, 0.5f); }));
-    add("coplanar in x", mapped(soup(80, 0.3f, 7), [](const Point3& p) { return Point3(0.5f, p.y, p.z); }));
+    add("coplanar",
+        mapped(soup(80, 0.3f, 6), [](const Point3& p) { return Point3(p.x, p.y, 0.5f); }));
+    add("coplanar in x",
+        mapped(soup(80, 0.3f, 7), [](const Point3& p) { return Point3(0.5f, p.y, p.z); }));
     add("flat grid", sheet(7, 7, [](int i, int j) { return Point3(i, j, -0.0f); }));
     // Boxes with the same middle: no split by centroid helps.
     {
@@ -155,7 +168,8 @@ inline std::vector<TestScene> adversarial_scenes() {
         }
         add("in a line", std::move(triangles));
     }
-    // Zero area: points, segments, collinear vertices whose products do not round to zero; alone and among good ones.
+    // Zero area: points, segments, collinear vertices whose products do not round to zero; alone
+    // and among good ones.
     {
         Pcg32 random(9);
         std::vector<Triangle> triangles;
@@ -182,13 +196,16 @@ inline std::vector<TestScene> adversarial_scenes() {
     add("huge", mapped(soup(150, 0.3f, 11), [](const Point3& p) { return p * 1e20f; }));
     add("tiny", mapped(soup(150, 0.3f, 12), [](const Point3& p) { return p * 1e-20f; }));
     // Few bits are left for the triangles themselves.
-    add("far away", mapped(soup(150, 0.3f, 13), [](const Point3& p) { return p + Point3(1e5f, 5e4f, -2.5e4f); }));
+    add("far away", mapped(soup(150, 0.3f, 13),
+                           [](const Point3& p) { return p + Point3(1e5f, 5e4f, -2.5e4f); }));
     {
         Pcg32 random(14);
         std::vector<Triangle> triangles;
         for (int i = 0; i < 150; ++i) {
-            const Point3 a = random_point(random, 0.0f, 1.0f), along = random_point(random, -5.0f, 5.0f);
-            triangles.push_back({a, a + along, a + along * 0.5f + random_point(random, -1e-4f, 1e-4f)});
+            const Point3 a = random_point(random, 0.0f, 1.0f),
+                         along = random_point(random, -5.0f, 5.0f);
+            triangles.push_back(
+                {a, a + along, a + along * 0.5f + random_point(random, -1e-4f, 1e-4f)});
         }
         add("slivers", std::move(triangles));
     }
@@ -202,15 +219,20 @@ inline std::vector<TestScene> adversarial_scenes() {
         }
         add("T-junctions", std::move(triangles));
     }
-    // The same t in different boxes: pruning must keep what is exactly as near, the smaller index wins.
+    // The same t in different boxes: pruning must keep what is exactly as near, the smaller index
+    // wins.
     {
         std::vector<Triangle> triangles;
         for (int copy = 0; copy < 3; ++copy)
-            for (const Triangle& t : sheet(4, 4, [](int i, int j) { return Point3(i, j, 2) * 0.5f; }))
-                triangles.push_back(copy == 1 ? Triangle{t.b, t.c, t.a} : copy == 2 ? Triangle{t.a, t.c, t.b} : t);
+            for (const Triangle& t :
+                 sheet(4, 4, [](int i, int j) { return Point3(i, j, 2) * 0.5f; }))
+                triangles.push_back(copy == 1   ? Triangle{t.b, t.c, t.a}
+                                    : copy == 2 ? Triangle{t.a, t.c, t.b}
+                                                : t);
         for (int i = 0; i < 12; ++i) {
             const auto reach = static_cast<float>(1 + i % 3);
-            triangles.push_back({{-reach, -reach, 1}, {3 + reach, -reach, 1}, {1.5f, 3 + reach, 1}});
+            triangles.push_back(
+                {{-reach, -reach, 1}, {3 + reach, -reach, 1}, {1.5f, 3 + reach, 1}});
         }
         add("equal t", std::move(triangles));
     }
@@ -223,8 +245,8 @@ inline std::vector<TestScene> adversarial_scenes() {
         add("one float apart", std::move(triangles));
     }
     {
-        std::vector<Triangle> triangles =
-            mapped(soup(200, 0.3f, 15), [](const Point3& p) { return p * 0.001f + Point3(0.25f, 0, 0); });
+        std::vector<Triangle> triangles = mapped(
+            soup(200, 0.3f, 15), [](const Point3& p) { return p * 0.001f + Point3(0.25f, 0, 0); });
         add_box(triangles, Point3{-100.0f, -100.0f, -10.0f}, Point3{100.0f, 100.0f, 50.0f});
         add("teapot in a stadium", std::move(triangles));
     }
@@ -233,7 +255,8 @@ inline std::vector<TestScene> adversarial_scenes() {
         std::vector<Triangle> triangles;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
-                for (int k = 0; k < 2; ++k) add_box(triangles, Point3(i, j, k), Point3(i + 1, j + 1, k + 1));
+                for (int k = 0; k < 2; ++k)
+                    add_box(triangles, Point3(i, j, k), Point3(i + 1, j + 1, k + 1));
         add("touching boxes", std::move(triangles));
     }
     // Many triangles at one vertex, with coordinates that are not whole.
@@ -242,8 +265,8 @@ inline std::vector<TestScene> adversarial_scenes() {
         std::vector<Triangle> triangles;
         const auto rim = [&](int k) {
             const double angle = 2.0 * 3.14159265358979323846 * (k % 24) / 24.0;
-            return Point3(static_cast<float>(0.1 + std::cos(angle)), static_cast<float>(0.2 + std::sin(angle)),
-                          k % 2 ? 0.3f : 0.4f);
+            return Point3(static_cast<float>(0.1 + std::cos(angle)),
+                          static_cast<float>(0.2 + std::sin(angle)), k % 2 ? 0.3f : 0.4f);
         };
         for (int k = 0; k < 24; ++k) triangles.push_back({hub, rim(k), rim(k + 1)});
         add("fan", std::move(triangles));

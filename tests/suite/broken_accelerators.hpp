@@ -2,12 +2,12 @@
 /// Naive tracing with one fault each: the suite must catch them, and call them by name.
 #pragma once
 
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+
 #include <unistd.h>
 
 #include <cstdlib>
 #include <stdexcept>
-
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
 
 namespace space {
 
@@ -49,14 +49,16 @@ class Broken {
                 for (;;) ::pause();
         }
         broken.triangles_.assign(triangles.begin(), triangles.end());
-        if (flaw == Flaw::builds_differ) broken.first_ = builds % 2 == 0 && triangles.size() > 1 ? 1 : 0;
+        if (flaw == Flaw::builds_differ)
+            broken.first_ = builds % 2 == 0 && triangles.size() > 1 ? 1 : 0;
         return broken;
     }
 
     template <class Counts>
     std::optional<Hit> closest_hit(const Ray& given, Counts& counts) const {
         Ray ray = given;
-        if (flaw == Flaw::answers_invalid_rays && ray.tmin > ray.tmax) std::swap(ray.tmin, ray.tmax);
+        if (flaw == Flaw::answers_invalid_rays && ray.tmin > ray.tmax)
+            std::swap(ray.tmin, ray.tmax);
         if (!is_valid(ray)) return std::nullopt;
         if (flaw == Flaw::ignores_tmin) ray.tmin = -infinity;
         if (flaw == Flaw::ignores_tmax) ray.tmax = infinity;
@@ -67,13 +69,14 @@ class Broken {
         for (std::uint32_t i = first_; i < triangles_.size(); ++i) {
             if (flaw == Flaw::drops_a_triangle && i == 2) continue;
             if (flaw == Flaw::prunes_too_early && nearest && i % 4 == 0) break;
-            if (flaw == Flaw::counting_matters && std::is_same_v<Counts, NoCounts> && i == 2) continue;
+            if (flaw == Flaw::counting_matters && std::is_same_v<Counts, NoCounts> && i == 2)
+                continue;
             if (flaw != Flaw::counts_nothing) counts.test_triangle();
             std::optional<Hit> hit = intersect(ray, triangles_[i]);
             if (!hit) continue;
             hit->triangle = i;
-            const bool better =
-                !nearest || (flaw == Flaw::forgets_ties ? hit->t <= nearest->t : nearer(*hit, *nearest));
+            const bool better = !nearest || (flaw == Flaw::forgets_ties ? hit->t <= nearest->t
+                                                                        : nearer(*hit, *nearest));
             if (!better) continue;
             if (flaw == Flaw::stale_uv) {
                 std::swap(hit->u, u);
@@ -88,7 +91,8 @@ class Broken {
     template <class Counts>
     bool any_hit(const Ray& given, Counts& counts) const {
         Ray ray = given;
-        if (!is_valid(ray)) return flaw == Flaw::answers_invalid_rays && closest_hit(ray, counts).has_value();
+        if (!is_valid(ray))
+            return flaw == Flaw::answers_invalid_rays && closest_hit(ray, counts).has_value();
         if (flaw == Flaw::any_ignores_tmin) ray.tmin = -infinity;
         if (flaw == Flaw::any_ignores_tmax) ray.tmax = infinity;
         for (std::uint32_t i = first_; i < triangles_.size(); ++i) {
@@ -109,9 +113,11 @@ class Broken {
   private:
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
         std::optional<Hit> hit = MollerTrumbore::intersect(ray, triangle);
-        if (flaw == Flaw::open_interval && hit && (hit->t == ray.tmin || hit->t == ray.tmax)) return std::nullopt;
+        if (flaw == Flaw::open_interval && hit && (hit->t == ray.tmin || hit->t == ray.tmax))
+            return std::nullopt;
         if (flaw == Flaw::invents_hits && !hit) {
-            const Point3 fourth = triangle.b + (triangle.c - triangle.a);  // the parallelogram's other half
+            const Point3 fourth =
+                triangle.b + (triangle.c - triangle.a);  // the parallelogram's other half
             return MollerTrumbore::intersect(ray, {triangle.b, fourth, triangle.c});
         }
         return hit;

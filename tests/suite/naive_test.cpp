@@ -1,13 +1,13 @@
 // Naive tracing with Möller-Trumbore in double: through the suite, and against the exact oracle.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 
-#include <filesystem>
-#include <functional>
-
 #include "common/mesh.hpp"
 #include "common/parallel.hpp"
 #include "common/scene.hpp"
 #include "tests/suite/accelerator_suite.hpp"
+
+#include <filesystem>
+#include <functional>
 
 namespace space {
 namespace {
@@ -25,8 +25,9 @@ Tally compared(std::span<const Triangle> triangles, const std::vector<Ray>& rays
     const Naive<> naive = Naive<>::build(triangles);
     const ExactOracle oracle = ExactOracle::build(triangles);
     std::vector<Comparison> comparisons(rays.size());
-    parallel_for(rays.size(), threads, 16,
-                 [&](std::size_t i) { comparisons[i] = compare(oracle, rays[i], closest_hit(naive, rays[i])); });
+    parallel_for(rays.size(), threads, 16, [&](std::size_t i) {
+        comparisons[i] = compare(oracle, rays[i], closest_hit(naive, rays[i]));
+    });
     Tally tally;
     for (const Comparison& comparison : comparisons) tally.add(comparison);
     return tally;
@@ -41,19 +42,24 @@ std::vector<Ray> rays_of(int count, const std::function<TestRay()>& make) {
 }  // namespace
 
 TEST_CASE("the suite: naive tracing") {
-    check_accelerator<Naive<>>("naive", [](std::span<const Triangle> triangles) { return Naive<>::build(triangles); });
+    check_accelerator<Naive<>>(
+        "naive", [](std::span<const Triangle> triangles) { return Naive<>::build(triangles); });
 }
 
 TEST_CASE("naive tracing is exactly right on 10^5 random rays over five scenes") {
     Tally sum;
     for (const TestScene& scene :
-         {TestScene{"soup", scenes::soup(300, 0.2f, 101)}, TestScene{"uneven", adversarial_scenes()[5].triangles},
+         {TestScene{"soup", scenes::soup(300, 0.2f, 101)},
+          TestScene{"uneven", adversarial_scenes()[5].triangles},
           TestScene{"ball", scenes::ball(3)}, TestScene{"dense", scenes::soup(150, 1.0f, 102)},
-          TestScene{"far away", scenes::mapped(scenes::soup(300, 0.3f, 103),
-                                               [](const Point3& p) { return p + Point3(1e4f, -2e4f, 3e4f); })}}) {
+          TestScene{"far away", scenes::mapped(scenes::soup(300, 0.3f, 103), [](const Point3& p) {
+                        return p + Point3(1e4f, -2e4f, 3e4f);
+                    })}}) {
         RayMaker maker(scene.triangles, 104);
-        const Tally tally = compared(scene.triangles, rays_of(random_rays, [&] { return maker.random(); }));
-        fmt::print("{} ({} triangles), random rays: {}\n", scene.name, scene.triangles.size(), tally.text());
+        const Tally tally =
+            compared(scene.triangles, rays_of(random_rays, [&] { return maker.random(); }));
+        fmt::print("{} ({} triangles), random rays: {}\n", scene.name, scene.triangles.size(),
+                   tally.text());
         CHECK(tally.wrong() == 0);
         CHECK(tally.beyond_bound == 0);
         sum += tally;
@@ -62,12 +68,15 @@ TEST_CASE("naive tracing is exactly right on 10^5 random rays over five scenes")
     CHECK(sum[Agreement::interval_end] == 0);
 }
 
-TEST_CASE("on rays at edges and vertices naive tracing errs only within its error bound, in every adversarial scene") {
+TEST_CASE(
+    "on rays at edges and vertices naive tracing errs only within its error bound, in every "
+    "adversarial scene") {
     for (const TestScene& scene : adversarial_scenes()) {
         RayMaker maker(scene.triangles, 105);
         int i = 0;
-        const Tally tally = compared(
-            scene.triangles, rays_of(aimed_rays, [&] { return ++i % 2 ? maker.at_edge() : maker.at_vertex(); }));
+        const Tally tally = compared(scene.triangles, rays_of(aimed_rays, [&] {
+                                         return ++i % 2 ? maker.at_edge() : maker.at_vertex();
+                                     }));
         fmt::print("{}, rays at edges and vertices: {}\n", scene.name, tally.text());
         INFO(scene.name << ": " << tally.text());
         CHECK(tally.beyond_bound == 0);
@@ -76,7 +85,8 @@ TEST_CASE("on rays at edges and vertices naive tracing errs only within its erro
 }
 
 TEST_CASE("naive tracing is exactly right on random rays in the book's scenes") {
-    for (const char* name : {"soup", "soup_uneven", "slivers", "boxes", "stadium", "icosphere", "sphereflake"}) {
+    for (const char* name :
+         {"soup", "soup_uneven", "slivers", "boxes", "stadium", "icosphere", "sphereflake"}) {
         const std::vector<Triangle> triangles = make_scene(name, 1, true).mesh.triangles();
         RayMaker maker(triangles, 106);
         const Tally tally = compared(triangles, rays_of(mesh_rays, [&] { return maker.random(); }));

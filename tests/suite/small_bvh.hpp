@@ -1,14 +1,14 @@
 /// @file
-/// The smallest tree that passes the suite, and the same with faults of traversal: what the suite itself is tested
-/// with. (How to build a good one is the matter of chapter 7.)
+/// The smallest tree that passes the suite, and the same with faults of traversal: what the suite
+/// itself is tested with. (How to build a good one is the matter of chapter 7.)
 #pragma once
-
-#include <algorithm>
-#include <numeric>
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "common/accelerator.hpp"
 #include "tests/suite/tree_check.hpp"
+
+#include <algorithm>
+#include <numeric>
 
 namespace space {
 
@@ -49,12 +49,14 @@ class SmallBvh {
     TreeShape shape() const {
         if (nodes_.empty()) return {.nodes = 0, .leaves = 0, .depth = 0, .bytes = sizeof *this};
         const auto leaves = static_cast<std::size_t>(
-            std::count_if(nodes_.begin(), nodes_.end(), [](const TreeNode& node) { return node.children.empty(); }));
+            std::count_if(nodes_.begin(), nodes_.end(),
+                          [](const TreeNode& node) { return node.children.empty(); }));
         return {.nodes = nodes_.size(),
                 .leaves = leaves,
                 .depth = depth(0),
                 .references = triangles_.size(),
-                .bytes = sizeof *this + nodes_.size() * sizeof(TreeNode) + triangles_.size() * sizeof(Triangle)};
+                .bytes = sizeof *this + nodes_.size() * sizeof(TreeNode) +
+                         triangles_.size() * sizeof(Triangle)};
     }
     std::span<const TreeNode> nodes() const { return nodes_; }
 
@@ -75,27 +77,36 @@ class SmallBvh {
             return index;
         }
         const int axis = middles.longest_axis();
-        const auto key = [&](std::uint32_t id) { return std::pair(bounds(triangles_[id]).centroid()[axis], id); };
-        std::sort(ids.begin(), ids.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
-        const std::uint32_t left = add_node(ids.first(ids.size() / 2)), right = add_node(ids.subspan(ids.size() / 2));
+        const auto key = [&](std::uint32_t id) {
+            return std::pair(bounds(triangles_[id]).centroid()[axis], id);
+        };
+        std::sort(ids.begin(), ids.end(),
+                  [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+        const std::uint32_t left = add_node(ids.first(ids.size() / 2)),
+                            right = add_node(ids.subspan(ids.size() / 2));
         nodes_[index].children = {left, right};
         return index;
     }
 
-    /// Where the ray enters the box, in double, or infinity. The box is made larger by 10^-6 of its coordinates and t
-    /// is taken 10^-6 earlier: more than a float's rounding of t, or double's in the triangle test, can amount to.
+    /// Where the ray enters the box, in double, or infinity. The box is made larger by 10^-6 of its
+    /// coordinates and t is taken 10^-6 earlier: more than a float's rounding of t, or double's in
+    /// the triangle test, can amount to.
     static double entry(const Aabb& box, const Ray& ray) {
         double from = ray.tmin, to = ray.tmax;
         for (int axis = 0; axis < 3; ++axis) {
-            const double slack = 1e-6 * std::max(std::abs(double{box.min[axis]}), std::abs(double{box.max[axis]}));
+            const double slack =
+                1e-6 * std::max(std::abs(double{box.min[axis]}), std::abs(double{box.max[axis]}));
             const double inverse = 1.0 / double{ray.direction[axis]}, origin = ray.origin[axis];
-            double near = (box.min[axis] - slack - origin) * inverse, far = (box.max[axis] + slack - origin) * inverse;
+            double near = (box.min[axis] - slack - origin) * inverse,
+                   far = (box.max[axis] + slack - origin) * inverse;
             if (flaw == TreeFlaw::nan_box_test) {
                 near = (box.min[axis] - origin) * inverse, far = (box.max[axis] - origin) * inverse;
                 if (!(std::min(near, far) <= to && std::max(near, far) >= from)) return infinity;
             }
             if (std::signbit(inverse)) std::swap(near, far);
-            from = near > from ? near : from;  // not a number: the origin lies on the slab's plane, no limit
+            from = near > from
+                       ? near
+                       : from;  // not a number: the origin lies on the slab's plane, no limit
             to = far < to ? far : to;
         }
         const double early = from - 1e-6 * std::abs(from);
@@ -103,7 +114,8 @@ class SmallBvh {
     }
 
     template <class Counts>
-    void visit(std::uint32_t index, const Ray& ray, Counts& counts, std::optional<Hit>& best, bool any) const {
+    void visit(std::uint32_t index, const Ray& ray, Counts& counts, std::optional<Hit>& best,
+               bool any) const {
         const TreeNode& node = nodes_[index];
         const double enters = entry(node.box, ray);
         if (std::isinf(enters) && enters > 0) return;
@@ -123,7 +135,8 @@ class SmallBvh {
 
     std::size_t depth(std::uint32_t index) const {
         std::size_t deepest = 0;
-        for (const std::uint32_t child : nodes_[index].children) deepest = std::max(deepest, 1 + depth(child));
+        for (const std::uint32_t child : nodes_[index].children)
+            deepest = std::max(deepest, 1 + depth(child));
         return deepest;
     }
 

@@ -81,7 +81,8 @@ TEST_CASE("the suite catches by name: Flaw::hangs_on_empty") {
 }
 
 TEST_CASE("a fault is called by its name and no other, where the name says it all") {
-    const auto only = [](const SuiteReport& report, std::initializer_list<std::string_view> allowed) {
+    const auto only = [](const SuiteReport& report,
+                         std::initializer_list<std::string_view> allowed) {
         INFO(report.text());
         for (const Failure& failure : report.failures) {
             INFO(failure.text());
@@ -93,21 +94,26 @@ TEST_CASE("a fault is called by its name and no other, where the name says it al
     only(report_on<Flaw::forgets_ties>(), {fault::forgets_ties});
     only(report_on<Flaw::stale_uv>(), {fault::stale_uv});
     only(report_on<Flaw::open_interval>(), {fault::open_interval, fault::any_misses_a_hit});
-    only(report_on<Flaw::any_ignores_tmax>(), {fault::any_ignores_tmax, fault::any_ignores_interval});
+    only(report_on<Flaw::any_ignores_tmax>(),
+         {fault::any_ignores_tmax, fault::any_ignores_interval});
     only(report_on<Flaw::counts_nothing>(), {fault::counts_nothing});
     only(report_on<Flaw::crashes_on_empty>(), {fault::crashes_on_empty});
 }
 
 TEST_CASE("a failure says in which scene, for which ray, what was expected and what came") {
     const SuiteReport report = report_on<Flaw::drops_a_triangle>();
-    const auto dropped = std::find_if(report.failures.begin(), report.failures.end(),
-                                      [](const Failure& failure) { return failure.fault == fault::drops_a_triangle; });
+    const auto dropped = std::find_if(
+        report.failures.begin(), report.failures.end(),
+        [](const Failure& failure) { return failure.fault == fault::drops_a_triangle; });
     REQUIRE(dropped != report.failures.end());
-    for (const char* part : {"scene \"", " ray origin (", ") direction (", "expected triangle 2 at t = ", "got "})
+    for (const char* part :
+         {"scene \"", " ray origin (", ") direction (", "expected triangle 2 at t = ", "got "})
         CHECK(dropped->text().find(part) != std::string::npos);
 }
 
-TEST_CASE("the suite catches faults of trees: lost ties, first leaves, boxes without numbers, missing vertices") {
+TEST_CASE(
+    "the suite catches faults of trees: lost ties, first leaves, boxes without numbers, missing "
+    "vertices") {
     const SuiteReport ties = examined<SmallBvh<TreeFlaw::box_equals_pruned>>();
     INFO(ties.text());
     CHECK(ties.names(fault::forgets_ties));

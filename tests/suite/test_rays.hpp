@@ -2,14 +2,14 @@
 /// Rays on which structures fail, aimed at a given scene.
 #pragma once
 
+#include "common/geometry.hpp"
+#include "common/pcg32.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include "common/geometry.hpp"
-#include "common/pcg32.hpp"
 
 namespace space {
 
@@ -18,10 +18,12 @@ struct TestRay {
     Ray ray;
 };
 
-/// Aims rays at a scene from in and around its box; everything finite that it makes has t within float's range.
+/// Aims rays at a scene from in and around its box; everything finite that it makes has t within
+/// float's range.
 class RayMaker {
   public:
-    RayMaker(std::span<const Triangle> triangles, std::uint64_t seed) : triangles_(triangles), random_(seed, 54) {
+    RayMaker(std::span<const Triangle> triangles, std::uint64_t seed)
+        : triangles_(triangles), random_(seed, 54) {
         for (const Triangle& triangle : triangles) box_.extend(bounds(triangle));
         if (box_.is_empty()) box_ = {Point3{0.0f}, Point3{1.0f}};
         const Vector3 extent = box_.extent();
@@ -31,13 +33,15 @@ class RayMaker {
 
     TestRay random() { return {"random", towards(outside(), inside())}; }
 
-    /// A direction along an axis, the others' zeros of either sign; the origin often exactly on planes of vertices.
+    /// A direction along an axis, the others' zeros of either sign; the origin often exactly on
+    /// planes of vertices.
     TestRay axis_parallel() {
         Ray ray{.origin = outside(), .direction = Vector3{0.0f}};
         const int along = below(3);
         for (int axis = 0; axis < 3; ++axis) {
             ray.direction[axis] = axis == along ? sign() : 0.0f * sign();
-            if (axis != along) ray.origin[axis] = random_.below(2) ? vertex()[axis] : inside()[axis];
+            if (axis != along)
+                ray.origin[axis] = random_.below(2) ? vertex()[axis] : inside()[axis];
         }
         return {"axis-parallel", ray};
     }
@@ -60,7 +64,8 @@ class RayMaker {
     /// The ray with its direction made longer or shorter by a power of two.
     TestRay scaled(const Ray& ray) {
         const float scale = std::ldexp(1.0f, below(41) - 20);
-        return {"scaled direction", {ray.origin, ray.direction * scale, ray.tmin / scale, ray.tmax / scale}};
+        return {"scaled direction",
+                {ray.origin, ray.direction * scale, ray.tmin / scale, ray.tmax / scale}};
     }
 
     /// Rays that hit nothing, whatever the scene: not a number, endless, no direction, no interval.
@@ -90,26 +95,36 @@ class RayMaker {
         const auto with = [&](float tmin, float tmax) {
             return TestRay{"cut interval", {ray.origin, ray.direction, tmin, tmax}};
         };
-        return {with(t, t),         with(0.0f, t),           with(t, infinity),   with(after, infinity),
-                with(0.0f, before), with(-infinity, before), with(before, after), with(-infinity, infinity),
+        return {with(t, t),          with(0.0f, t),
+                with(t, infinity),   with(after, infinity),
+                with(0.0f, before),  with(-infinity, before),
+                with(before, after), with(-infinity, infinity),
                 with(t, before)};
     }
 
     /// From off the triangle towards its middle, along the normal.
     Ray probe(const Triangle& triangle) const {
-        const Double3 middle = (Double3(triangle.a) + Double3(triangle.b) + Double3(triangle.c)) / 3.0;
+        const Double3 middle =
+            (Double3(triangle.a) + Double3(triangle.b) + Double3(triangle.c)) / 3.0;
         const Double3 across = normal(triangle);
         const double length = glm::length(across);
         if (length == 0.0)
-            return {.origin = Point3(middle), .direction = {0.0f, 0.0f, 1.0f}, .tmin = -1.0f, .tmax = 1.0f};
+            return {.origin = Point3(middle),
+                    .direction = {0.0f, 0.0f, 1.0f},
+                    .tmin = -1.0f,
+                    .tmax = 1.0f};
         const Point3 origin(middle + across / length * double{reach_});
         return {.origin = origin, .direction = Vector3(middle - Double3(origin))};
     }
 
   private:
-    int below(int bound) { return static_cast<int>(random_.below(static_cast<std::uint32_t>(bound))); }
+    int below(int bound) {
+        return static_cast<int>(random_.below(static_cast<std::uint32_t>(bound)));
+    }
     float sign() { return random_.below(2) ? 1.0f : -1.0f; }
-    const Triangle& triangle() { return triangles_[random_.below(static_cast<std::uint32_t>(triangles_.size()))]; }
+    const Triangle& triangle() {
+        return triangles_[random_.below(static_cast<std::uint32_t>(triangles_.size()))];
+    }
     Point3 vertex() {
         if (triangles_.empty()) return inside();
         const Triangle& t = triangle();
@@ -120,7 +135,12 @@ class RayMaker {
         if (triangles_.empty()) return inside();
         const Triangle& t = triangle();
         const int edge = below(3);
-        const Point3 from = edge == 0 ? t.a : edge == 1 ? t.b : t.c, to = edge == 0 ? t.b : edge == 1 ? t.c : t.a;
+        const Point3 from = edge == 0   ? t.a
+                            : edge == 1 ? t.b
+                                        : t.c,
+                     to = edge == 0   ? t.b
+                          : edge == 1 ? t.c
+                                      : t.a;
         return from + random_.uniform() * (to - from);
     }
     Point3 point_on_face() {
@@ -136,12 +156,14 @@ class RayMaker {
     Point3 box_point(float margin) {
         Point3 p;
         for (int axis = 0; axis < 3; ++axis)
-            p[axis] = random_.uniform(box_.min[axis] - margin * reach_, box_.max[axis] + margin * reach_);
+            p[axis] =
+                random_.uniform(box_.min[axis] - margin * reach_, box_.max[axis] + margin * reach_);
         return p;
     }
     Ray towards(const Point3& origin, const Point3& target) {
         const Vector3 direction = target - origin;
-        return {.origin = origin, .direction = direction == Vector3{0.0f} ? Vector3{0.0f, 0.0f, 1.0f} : direction};
+        return {.origin = origin,
+                .direction = direction == Vector3{0.0f} ? Vector3{0.0f, 0.0f, 1.0f} : direction};
     }
 
     std::span<const Triangle> triangles_;

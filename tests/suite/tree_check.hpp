@@ -2,6 +2,8 @@
 /// What must hold in every tree of boxes, with a diagnosis when it does not.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +13,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -27,21 +27,22 @@ struct TreeNode {
 struct TreeRules {
     bool boxes_hold_triangles = true;  ///< bounding volumes: a leaf's box contains its triangles
     bool tight = false;                ///< a box is no larger than its triangles need
-    bool cells_hold_pieces =
-        false;         ///< cells of space: where a triangle passes through a leaf's cell, the leaf names it
-    bool once = true;  ///< each triangle is in exactly one leaf
+    bool cells_hold_pieces = false;    ///< cells of space: where a triangle passes through a leaf's
+                                       ///< cell, the leaf names it
+    bool once = true;                  ///< each triangle is in exactly one leaf
     std::size_t max_leaf_size = std::numeric_limits<std::size_t>::max();
 };
 
 namespace detail {
 
-/// "exceeds parent by 1e-07 on x", for the axis where it is worst; empty where `inner` lies within `outer`.
+/// "exceeds parent by 1e-07 on x", for the axis where it is worst; empty where `inner` lies within
+/// `outer`.
 inline std::string excess(const Aabb& inner, const Aabb& outer) {
     double worst = 0.0;
     int worst_axis = 0;
     for (int axis = 0; axis < 3; ++axis)
-        for (const double beyond :
-             {double{outer.min[axis]} - double{inner.min[axis]}, double{inner.max[axis]} - double{outer.max[axis]}})
+        for (const double beyond : {double{outer.min[axis]} - double{inner.min[axis]},
+                                    double{inner.max[axis]} - double{outer.max[axis]}})
             if (beyond > worst) worst = beyond, worst_axis = axis;
     return worst > 0.0 ? fmt::format("by {:.3g} on {}", worst, "xyz"[worst_axis]) : std::string();
 }
@@ -73,9 +74,10 @@ inline bool holds(const Aabb& box, const Double3& p, double slack) {
 
 }  // namespace detail
 
-/// All faults, each a phrase such as "node 37: child 41 exceeds parent by 1e-07 on x" or "triangle 12 in no leaf";
-/// none for a good tree.
-inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std::span<const Triangle> triangles,
+/// All faults, each a phrase such as "node 37: child 41 exceeds parent by 1e-07 on x" or "triangle
+/// 12 in no leaf"; none for a good tree.
+inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes,
+                                            std::span<const Triangle> triangles,
                                             const TreeRules& rules = {}) {
     std::vector<std::string> faults;
     const auto fault = [&]<class... T>(fmt::format_string<T...> text, T&&... values) {
@@ -104,7 +106,8 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
     std::vector<std::uint32_t> reached{0};
     for (std::size_t next = 0; next < reached.size(); ++next)
         for (const std::uint32_t child : nodes[reached[next]].children) reached.push_back(child);
-    if (reached.size() != nodes.size()) {  // every node has one parent, so the rest go round in circles
+    if (reached.size() !=
+        nodes.size()) {  // every node has one parent, so the rest go round in circles
         fault("{} nodes cannot be reached from the root", nodes.size() - reached.size());
         return faults;
     }
@@ -120,9 +123,11 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
                 !by.empty() && !nodes[child].box.is_empty())
                 fault("node {}: child {} exceeds parent {}", i, child, by);
         }
-        if (!node.children.empty() && !node.triangles.empty()) fault("node {}: has children and triangles", i);
+        if (!node.children.empty() && !node.triangles.empty())
+            fault("node {}: has children and triangles", i);
         if (node.triangles.size() > rules.max_leaf_size)
-            fault("node {}: {} triangles in a leaf, {} allowed", i, node.triangles.size(), rules.max_leaf_size);
+            fault("node {}: {} triangles in a leaf, {} allowed", i, node.triangles.size(),
+                  rules.max_leaf_size);
         for (const std::uint32_t id : node.triangles) {
             if (id >= triangles.size()) {
                 fault("node {}: triangle {} is none of the {}", i, id, triangles.size());
@@ -145,13 +150,15 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
     }
     for (std::size_t id = 0; id < triangles.size(); ++id) {
         if (leaves_with[id] == 0) fault("triangle {} in no leaf", id);
-        if (rules.once && leaves_with[id] > 1) fault("triangle {} in {} leaves", id, leaves_with[id]);
+        if (rules.once && leaves_with[id] > 1)
+            fault("triangle {} in {} leaves", id, leaves_with[id]);
     }
 
     if (rules.cells_hold_pieces) {
         const Vector3 extent = nodes[0].box.extent();
         const double slack =
-            1e-6 * std::max({extent.x, extent.y, extent.z});  // what rounding a split's position may move
+            1e-6 *
+            std::max({extent.x, extent.y, extent.z});  // what rounding a split's position may move
         for (std::size_t id = 0; id < triangles.size(); ++id)
             for (const Double3& p : detail::sample_points(triangles[id])) {
                 const auto in_leaf = [&](const TreeNode& node, double margin) {
@@ -159,11 +166,13 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
                 };
                 const auto named = [&](const TreeNode& node) {
                     return in_leaf(node, slack) &&
-                           std::find(node.triangles.begin(), node.triangles.end(), id) != node.triangles.end();
+                           std::find(node.triangles.begin(), node.triangles.end(), id) !=
+                               node.triangles.end();
                 };
                 if (std::any_of(nodes.begin(), nodes.end(), named)) continue;
                 const auto leaf =
-                    std::find_if(nodes.begin(), nodes.end(), [&](const TreeNode& node) { return in_leaf(node, 0.0); });
+                    std::find_if(nodes.begin(), nodes.end(),
+                                 [&](const TreeNode& node) { return in_leaf(node, 0.0); });
                 if (leaf == nodes.end()) continue;  // outside the tree's box
                 fault("node {}: triangle {} passes through the cell, and the leaf does not name it",
                       leaf - nodes.begin(), id);
@@ -177,7 +186,8 @@ inline std::vector<std::string> tree_faults(std::span<const TreeNode> nodes, std
 inline std::string diagnosis(const std::vector<std::string>& faults) {
     constexpr std::size_t shown = 8;
     std::string text;
-    for (std::size_t i = 0; i < std::min(shown, faults.size()); ++i) text += (i ? "; " : "") + faults[i];
+    for (std::size_t i = 0; i < std::min(shown, faults.size()); ++i)
+        text += (i ? "; " : "") + faults[i];
     if (faults.size() > shown) text += fmt::format("; and {} more", faults.size() - shown);
     return text;
 }

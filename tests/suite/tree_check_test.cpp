@@ -1,22 +1,24 @@
 #include "tests/suite/tree_check.hpp"
 
-#include <cmath>
-
 #include "tests/catch.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 #include "tests/suite/small_bvh.hpp"
 
+#include <cmath>
+
 namespace space {
 namespace {
 
-const std::vector<Triangle> triangles{
-    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{2, 0, 0}, {3, 0, 0}, {2, 1, 1}}, {{4, 0, 0}, {5, 0, 0}, {4, 1, 0}}};
+const std::vector<Triangle> triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                      {{2, 0, 0}, {3, 0, 0}, {2, 1, 1}},
+                                      {{4, 0, 0}, {5, 0, 0}, {4, 1, 0}}};
 
 Aabb box(Point3 low, Point3 high) {
     return {low, high};
 }
 
-/// Root 0 with the leaf 1 (triangle 0) and the node 2, which has the leaves 3 (triangle 1) and 4 (triangle 2).
+/// Root 0 with the leaf 1 (triangle 0) and the node 2, which has the leaves 3 (triangle 1) and 4
+/// (triangle 2).
 std::vector<TreeNode> good_tree() {
     return {{box({0, 0, 0}, {5, 1, 1}), {1, 2}, {}},
             {box({0, 0, 0}, {1, 1, 0}), {}, {0}},
@@ -32,7 +34,8 @@ constexpr TreeRules cells{.boxes_hold_triangles = false, .cells_hold_pieces = tr
 }  // namespace
 
 TEST_CASE("a good tree has no faults, under the strictest rules") {
-    CHECK(faults_of(good_tree(), {.tight = true, .cells_hold_pieces = true, .max_leaf_size = 1}) == "");
+    CHECK(faults_of(good_tree(), {.tight = true, .cells_hold_pieces = true, .max_leaf_size = 1}) ==
+          "");
     CHECK(tree_faults({}, {}).empty());
 }
 
@@ -41,7 +44,8 @@ TEST_CASE("boxes that do not hold their content are told, with the excess and th
     tree[4].box.max.x = std::nextafter(5.0f, 6.0f);
     CHECK(faults_of(tree) == "node 2: child 4 exceeds parent by 4.77e-07 on x");
     CHECK(faults_of(tree, {.tight = true}) ==
-          "node 2: child 4 exceeds parent by 4.77e-07 on x; node 4: box is larger than its content by 4.77e-07 on x");
+          "node 2: child 4 exceeds parent by 4.77e-07 on x; node 4: box is larger than its content "
+          "by 4.77e-07 on x");
 
     tree = good_tree();
     tree[3].box.max.z = 0.75f;
@@ -61,7 +65,8 @@ TEST_CASE("triangles that are lost, doubled, unknown or too many are told") {
     tree[3].triangles = {1, 0};
     CHECK(faults_of(tree) == "triangle 0 in 2 leaves");
     CHECK(faults_of(tree, {.once = false}) == "");
-    CHECK(faults_of(tree, {.once = false, .max_leaf_size = 1}) == "node 3: 2 triangles in a leaf, 1 allowed");
+    CHECK(faults_of(tree, {.once = false, .max_leaf_size = 1}) ==
+          "node 3: 2 triangles in a leaf, 1 allowed");
     tree[3].triangles = {1, 1};
     CHECK(faults_of(tree, {.once = false}) == "node 3: triangle 1 twice in the leaf");
     tree = good_tree();
@@ -112,9 +117,10 @@ TEST_CASE("the trees of all adversarial scenes keep the rules; boxes of too few 
         INFO(scene.name);
         CHECK(diagnosis(tree_faults(SmallBvh<>::build(scene.triangles).nodes(), scene.triangles,
                                     {.tight = true, .max_leaf_size = 4})) == "");
-        caught =
-            caught ||
-            !tree_faults(SmallBvh<TreeFlaw::vertices_only>::build(scene.triangles).nodes(), scene.triangles).empty();
+        caught = caught ||
+                 !tree_faults(SmallBvh<TreeFlaw::vertices_only>::build(scene.triangles).nodes(),
+                              scene.triangles)
+                      .empty();
     }
     CHECK(caught);
 }

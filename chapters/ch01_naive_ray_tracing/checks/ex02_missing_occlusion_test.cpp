@@ -1,8 +1,8 @@
 #include "ex02_missing_occlusion_test.hpp"
 
-#include <array>
-
 #include "tests/catch.hpp"
+
+#include <array>
 
 using namespace space;
 
@@ -23,8 +23,10 @@ TEST_CASE("a triangle between the point and the light keeps the light away") {
 }
 
 TEST_CASE("any one triangle is enough, wherever it stands in the list") {
-    CHECK_FALSE(light_reaches(floor_point, lamp, std::array{at_height(2), at_height(1, 10), at_height(3, -10)}));
-    CHECK_FALSE(light_reaches(floor_point, lamp, std::array{at_height(1, 10), at_height(3, -10), at_height(2)}));
+    CHECK_FALSE(light_reaches(floor_point, lamp,
+                              std::array{at_height(2), at_height(1, 10), at_height(3, -10)}));
+    CHECK_FALSE(light_reaches(floor_point, lamp,
+                              std::array{at_height(1, 10), at_height(3, -10), at_height(2)}));
 }
 
 TEST_CASE("triangles beside the way throw no shadow on the point") {

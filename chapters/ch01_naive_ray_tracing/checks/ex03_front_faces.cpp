@@ -1,8 +1,8 @@
 #include "ex03_front_faces.hpp"
 
-#include <array>
-
 #include "tests/catch.hpp"
+
+#include <array>
 
 using namespace space;
 
@@ -29,7 +29,8 @@ std::vector<Triangle> octahedron() {
 }  // namespace
 
 TEST_CASE("the vertex order decides which side is the front") {
-    const Camera above{.eye = {0, 0, 5}, .target = {0, 0, 0}}, below{.eye = {0, 0, -5}, .target = {0, 0, 0}};
+    const Camera above{.eye = {0, 0, 5}, .target = {0, 0, 0}},
+        below{.eye = {0, 0, -5}, .target = {0, 0, 0}};
     CHECK(front_faces(std::array{facing_up, facing_down}, above) == Indices{0});
     CHECK(front_faces(std::array{facing_up, facing_down}, below) == Indices{1});
 }
@@ -40,10 +41,12 @@ TEST_CASE("a triangle seen edge-on shows neither side") {
 }
 
 TEST_CASE("where the camera looks does not matter, only where its eye is") {
-    // The triangle stands at the picture's border: its plane lies behind the target, but the eye is in front of it.
+    // The triangle stands at the picture's border: its plane lies behind the target, but the eye is
+    // in front of it.
     const Triangle tilted{{10, -1, 0}, {10, 1, 0}, {12, 0, -3}};
     const bool eye_in_front = glm::dot(normal(tilted), Double3(0, 0, 5) - Double3(tilted.a)) > 0.0;
-    for (const Point3 target : {Point3(0, 0, 0), Point3(10, 0, 0), Point3(-10, 0, -3), Point3(0, 0, 9)}) {
+    for (const Point3 target :
+         {Point3(0, 0, 0), Point3(10, 0, 0), Point3(-10, 0, -3), Point3(0, 0, 9)}) {
         const Camera camera{.eye = {0, 0, 5}, .target = target};
         CHECK(front_faces(std::array{tilted}, camera) == (eye_in_front ? Indices{0} : Indices{}));
     }

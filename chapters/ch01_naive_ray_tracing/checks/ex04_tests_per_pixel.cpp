@@ -1,10 +1,10 @@
 #include "ex04_tests_per_pixel.hpp"
 
-#include <numeric>
-
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+
+#include <numeric>
 
 using namespace space;
 
@@ -14,11 +14,14 @@ namespace {
 Scene random_scene(std::uint32_t triangles) {
     Scene scene;
     Pcg32 random(7);
-    const auto point = [&] { return Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    const auto point = [&] {
+        return Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    };
     for (std::uint32_t i = 0; i < triangles; ++i) {
         const Point3 centre = point();
-        scene.mesh.vertices.insert(scene.mesh.vertices.end(),
-                                   {centre + 0.3f * point(), centre + 0.3f * point(), centre + 0.3f * point()});
+        scene.mesh.vertices.insert(
+            scene.mesh.vertices.end(),
+            {centre + 0.3f * point(), centre + 0.3f * point(), centre + 0.3f * point()});
         scene.mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     scene.camera = {.eye = {0, 0, 4}, .target = {0, 0, 0}, .field_of_view = 40.0f};
@@ -38,7 +41,9 @@ TEST_CASE("a pixel that sees a lit surface costs as much again for each light in
     Scene scene;
     scene.mesh = {{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{0, 1, 2}}};
     scene.camera = {.eye = {0, 0, 5}, .target = {0, 0, 0}, .field_of_view = 20.0f};
-    scene.lights = {{.position = {0, 0, 5}}, {.position = {1, 1, 5}}, {.position = {0, 0, -5}}};  // one is behind
+    scene.lights = {{.position = {0, 0, 5}},
+                    {.position = {1, 1, 5}},
+                    {.position = {0, 0, -5}}};  // one is behind
     CHECK(tests_per_pixel(scene, 2, 2) == std::vector<std::uint64_t>(4, 3));
 }
 
@@ -46,8 +51,9 @@ TEST_CASE("a shadow ray costs no more than the tests up to the first hit") {
     Scene scene;
     scene.mesh = {{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, {-90, -90, 0}, {90, -90, 0}, {0, 90, 0}},
                   {{0, 1, 2}, {3, 4, 5}}};
-    scene.camera = {
-        .eye = {4, 0, 4}, .target = {0, 0, 0}, .field_of_view = 1.0f};  // the floor, below the small triangle
+    scene.camera = {.eye = {4, 0, 4},
+                    .target = {0, 0, 0},
+                    .field_of_view = 1.0f};  // the floor, below the small triangle
     scene.lights = {{.position = {0, 0, 4}}};
     CHECK(tests_per_pixel(scene, 1, 1) == std::vector<std::uint64_t>{2 + 1});
 }
@@ -56,6 +62,8 @@ TEST_CASE("the pixels' tests add up to the renderer's") {
     const Scene scene = random_scene(60);
     const std::vector<std::uint64_t> tests = tests_per_pixel(scene, 40, 30);
     REQUIRE(tests.size() == 40 * 30);
-    const Rendering rendering = render(scene, Naive<>::build(scene.mesh.triangles()), {.width = 40, .height = 30});
-    CHECK(std::accumulate(tests.begin(), tests.end(), std::uint64_t{0}) == rendering.counts.traversal.triangles_tested);
+    const Rendering rendering =
+        render(scene, Naive<>::build(scene.mesh.triangles()), {.width = 40, .height = 30});
+    CHECK(std::accumulate(tests.begin(), tests.end(), std::uint64_t{0}) ==
+          rendering.counts.traversal.triangles_tested);
 }

@@ -2,16 +2,17 @@
 /// Exercise 1.4: Tests per pixel
 /// Difficulty 2 of 3, about 25 minutes.
 ///
-/// What does a pixel cost? Return, row by row from the top left, the number of ray-triangle tests that the naive tracer
-/// makes for each pixel of a picture with one ray through each pixel's centre: those of the camera's ray, and those of
-/// the shadow rays from what it hits. The stub counts the camera's ray alone.
+/// What does a pixel cost? Return, row by row from the top left, the number of ray-triangle tests
+/// that the naive tracer makes for each pixel of a picture with one ray through each pixel's
+/// centre: those of the camera's ray, and those of the shadow rays from what it hits. The stub
+/// counts the camera's ray alone.
 #pragma once
-
-#include <cstdint>
-#include <vector>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/shading.hpp"
+
+#include <cstdint>
+#include <vector>
 
 namespace space {
 

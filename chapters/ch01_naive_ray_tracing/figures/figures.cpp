@@ -1,5 +1,16 @@
 #include "chapters/ch01_naive_ray_tracing/figures/figures.hpp"
 
+#include "chapters/ch01_naive_ray_tracing/coordinate_systems.hpp"
+#include "chapters/ch01_naive_ray_tracing/coverage.hpp"
+#include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "common/measure.hpp"
+#include "common/pcg32.hpp"
+#include "common/program/file.hpp"
+#include "common/program/report.hpp"
+#include "common/program/svg.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,22 +19,11 @@
 #include <utility>
 #include <vector>
 
-#include "chapters/ch01_naive_ray_tracing/coordinate_systems.hpp"
-#include "chapters/ch01_naive_ray_tracing/coverage.hpp"
-#include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
-#include "common/program/file.hpp"
-#include "common/measure.hpp"
-#include "common/pcg32.hpp"
-#include "common/program/report.hpp"
-#include "common/program/svg.hpp"
-
 namespace space::ch01 {
 namespace {
 
-/// How a drawing shows three dimensions: without perspective, from the side `yaw` and from above `pitch`, angles given
-/// by a Pythagorean triple, so that no cosine differs between libraries.
+/// How a drawing shows three dimensions: without perspective, from the side `yaw` and from above
+/// `pitch`, angles given by a Pythagorean triple, so that no cosine differs between libraries.
 struct View {
     glm::dvec2 origin;  ///< where (0, 0, 0) is drawn
     double scale;       ///< drawing units per unit
@@ -34,7 +34,9 @@ struct View {
         return Point2(origin + scale * glm::dvec2(across, pitch_sin * along - pitch_cos * p.y));
     }
     /// Whether the drawing shows the side that the normal points to.
-    bool faces(const Double3& n) const { return pitch_cos * (yaw_sin * n.x + yaw_cos * n.z) + pitch_sin * n.y > 0.0; }
+    bool faces(const Double3& n) const {
+        return pitch_cos * (yaw_sin * n.x + yaw_cos * n.z) + pitch_sin * n.y > 0.0;
+    }
     std::vector<Point2> outline(const std::vector<Double3>& points) const {
         std::vector<Point2> drawn;
         for (const Double3& p : points) drawn.push_back((*this)(p));
@@ -61,13 +63,15 @@ std::string shown(const Double3& p) {
     return fmt::format("({}, {}, {})", shown(p.x, 1), shown(p.y, 1), shown(p.z, 1));
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.1 The three coordinate systems
 
-/// A house with a gable roof: polygons, counter-clockwise seen from outside. The local origin is a corner of its front.
+/// A house with a gable roof: polygons, counter-clockwise seen from outside. The local origin is a
+/// corner of its front.
 const Double3 house_tip{0.5, 1.1, 0.0};
 std::vector<std::vector<Double3>> house() {
-    const std::array<glm::dvec2, 5> gable{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.65}, {0.5, 1.1}, {0.0, 0.65}}};
+    const std::array<glm::dvec2, 5> gable{
+        {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.65}, {0.5, 1.1}, {0.0, 0.65}}};
     std::vector<std::vector<Double3>> faces(2);
     for (std::size_t i = 0; i < gable.size(); ++i) {
         const glm::dvec2 p = gable[i], q = gable[(i + 1) % gable.size()];
@@ -84,12 +88,14 @@ void draw_house(Svg& svg, const View& view, const Map& map) {
         const Double3 n = glm::cross(face[1] - face[0], face[2] - face[0]);
         if (view.faces(n))
             svg.polygon(view.outline(face),
-                        {.fill = Ink::sky, .opacity = 0.25 + 0.35 * glm::normalize(n).y * glm::normalize(n).y});
+                        {.fill = Ink::sky,
+                         .opacity = 0.25 + 0.35 * glm::normalize(n).y * glm::normalize(n).y});
     }
     svg.circle(view(map_point(map, house_tip)), 5, {.stroke = {}, .fill = Ink::ink});
 }
 
-/// The three axes of a system, given by its map to what the view draws; names stand beyond the tips.
+/// The three axes of a system, given by its map to what the view draws; names stand beyond the
+/// tips.
 void draw_axes(Svg& svg, const View& view, const Map& map, double length, Ink ink) {
     const Point2 origin = view(map_point(map, Double3(0.0)));
     const std::array<const char*, 3> names{"*x*", "*y*", "*z*"};
@@ -100,29 +106,36 @@ void draw_axes(Svg& svg, const View& view, const Map& map, double length, Ink in
         const Point2 tip = view(map_point(map, Double3(0.0)) + direction);
         svg.line(origin, tip, {.stroke = ink, .arrow = true});
         const Vector2 beyond = tip + 13.0f * glm::normalize(tip - origin);
-        svg.text(moved(beyond, 0, 5), names[static_cast<std::size_t>(axis)], {.ink = ink, .size = 18, .halo = true});
+        svg.text(moved(beyond, 0, 5), names[static_cast<std::size_t>(axis)],
+                 {.ink = ink, .size = 18, .halo = true});
     }
 }
 
 /// Eye and image plane: four lines to the corners of what the camera sees at this distance.
-void draw_camera(Svg& svg, const View& view, const Map& camera_to_drawn, double tan_half_fov, double distance) {
+void draw_camera(Svg& svg, const View& view, const Map& camera_to_drawn, double tan_half_fov,
+                 double distance) {
     const double y = tan_half_fov * distance, x = y * 4 / 3;
-    std::vector<Double3> corners{{-x, -y, -distance}, {x, -y, -distance}, {x, y, -distance}, {-x, y, -distance}};
+    std::vector<Double3> corners{
+        {-x, -y, -distance}, {x, -y, -distance}, {x, y, -distance}, {-x, y, -distance}};
     const Point2 eye = view(map_point(camera_to_drawn, Double3(0.0)));
     for (Double3& corner : corners) {
         corner = map_point(camera_to_drawn, corner);
         svg.line(eye, view(corner), {.stroke = Ink::quiet});
     }
-    svg.polygon(view.outline(corners), {.stroke = Ink::quiet, .fill = Ink::yellow, .opacity = 0.25});
+    svg.polygon(view.outline(corners),
+                {.stroke = Ink::quiet, .fill = Ink::yellow, .opacity = 0.25});
     svg.circle(eye, 5, {.stroke = {}, .fill = Ink::vermillion});
 }
 
 void fig_01_01(const Options& options) {
-    Svg svg("fig_01_01", "One house in its local coordinates, in the world's, and in the camera's", 640, 570);
-    const Camera camera{.eye = {-2.2f, 1.5f, 1.6f}, .target = {1.4f, 0.4f, -1.2f}, .field_of_view = 40.0f};
+    Svg svg("fig_01_01", "One house in its local coordinates, in the world's, and in the camera's",
+            640, 570);
+    const Camera camera{
+        .eye = {-2.2f, 1.5f, 1.6f}, .target = {1.4f, 0.4f, -1.2f}, .field_of_view = 40.0f};
     const CameraFrame frame(camera);
     const Map from_camera = camera_to_world(camera), to_camera = glm::inverse(from_camera);
-    const Map placed = local_to_world({.translation = {1.1, 0.0, -0.4}, .angle = -0.3, .scale = Double3(1.3)});
+    const Map placed =
+        local_to_world({.translation = {1.1, 0.0, -0.4}, .angle = -0.3, .scale = Double3(1.3)});
     const Double3 tip = map_point(placed, house_tip);
 
     const View local{{70, 204}, 86, 12.0 / 13, 5.0 / 13, 12.0 / 13, 5.0 / 13};
@@ -135,8 +148,10 @@ void fig_01_01(const Options& options) {
     svg.end_group();
 
     svg.begin_group("world");
-    for (int i = -3; i <= 4; ++i) svg.line(world(Double3(i, 0, -2)), world(Double3(i, 0, 2)), {.stroke = Ink::faint});
-    for (int i = -2; i <= 2; ++i) svg.line(world(Double3(-3, 0, i)), world(Double3(4, 0, i)), {.stroke = Ink::faint});
+    for (int i = -3; i <= 4; ++i)
+        svg.line(world(Double3(i, 0, -2)), world(Double3(i, 0, 2)), {.stroke = Ink::faint});
+    for (int i = -2; i <= 2; ++i)
+        svg.line(world(Double3(-3, 0, i)), world(Double3(4, 0, i)), {.stroke = Ink::faint});
     draw_axes(svg, world, Map(1.0), 1.2, Ink::ink);
     draw_house(svg, world, placed);
     draw_axes(svg, world, placed, 1.8, Ink::blue);
@@ -164,16 +179,19 @@ void fig_01_01(const Options& options) {
     write(options, "fig_01_01", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.2 Winding and normal
 
 void fig_01_02(const Options& options) {
-    Svg svg("fig_01_02", "The same triangle with its vertices in two orders: the normal points to opposite sides", 640,
-            376);
-    const auto draw = [&](double x, const Triangle& triangle, Ink ink, const char* first, const char* second,
-                          std::string id) {
+    Svg svg(
+        "fig_01_02",
+        "The same triangle with its vertices in two orders: the normal points to opposite sides",
+        640, 376);
+    const auto draw = [&](double x, const Triangle& triangle, Ink ink, const char* first,
+                          const char* second, std::string id) {
         const View view{{x, 170}, 118, 12.0 / 13, 5.0 / 13, 0.8, 0.6};
-        const std::array<Double3, 3> corners{Double3(triangle.a), Double3(triangle.b), Double3(triangle.c)};
+        const std::array<Double3, 3> corners{Double3(triangle.a), Double3(triangle.b),
+                                             Double3(triangle.c)};
         const Double3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         const Double3 tip = middle + 1.2 * glm::normalize(normal(triangle));
         const bool front = view.faces(normal(triangle));
@@ -181,7 +199,8 @@ void fig_01_02(const Options& options) {
         svg.begin_group(id);
         const auto draw_normal = [&] {
             svg.line(view(middle), view(tip), {.stroke = ink, .arrow = true});
-            svg.text(moved(view(tip), 16, front ? 6 : 0), "*n*", {.anchor = Anchor::start, .ink = ink, .size = 20});
+            svg.text(moved(view(tip), 16, front ? 6 : 0), "*n*",
+                     {.anchor = Anchor::start, .ink = ink, .size = 20});
         };
         if (!front) draw_normal();
         svg.polygon(view.outline({corners[0], corners[1], corners[2]}),
@@ -213,14 +232,17 @@ void fig_01_02(const Options& options) {
     write(options, "fig_01_02", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.3 The pixel's ray
 
 void fig_01_03(const Options& options) {
-    Svg svg("fig_01_03", "The ray from the eye through the centre of a pixel to a triangle, and the axis of t below it",
+    Svg svg("fig_01_03",
+            "The ray from the eye through the centre of a pixel to a triangle, and the axis of t "
+            "below it",
             640, 416);
     constexpr int width = 8, height = 6, pixel_x = 5, pixel_y = 2;
-    const Camera camera{.eye = {0.0f, 0.0f, 0.0f}, .target = {0.0f, 0.0f, -1.0f}, .field_of_view = 60.0f};
+    const Camera camera{
+        .eye = {0.0f, 0.0f, 0.0f}, .target = {0.0f, 0.0f, -1.0f}, .field_of_view = 60.0f};
     const CameraFrame frame(camera);
     const Ray ray = camera_ray(camera, frame, pixel_x + 0.5, pixel_y + 0.5, width, height);
     const Triangle triangle{{-0.6f, -0.3f, -3.0f}, {1.3f, -0.4f, -2.9f}, {0.6f, 1.0f, -2.8f}};
@@ -231,32 +253,43 @@ void fig_01_03(const Options& options) {
     const auto on_image = [&](double x, double y) {
         return view(Double3(camera_ray(camera, frame, x, y, width, height).at(1.0f)));
     };
-    const auto on_ray = [&](double t) { return view(Double3(ray.origin) + t * Double3(ray.direction)); };
+    const auto on_ray = [&](double t) {
+        return view(Double3(ray.origin) + t * Double3(ray.direction));
+    };
 
     // From back to front.
-    svg.line(on_ray(hit.t), on_ray(t_max), {.stroke = Ink::vermillion, .dashed = true, .arrow = true});
+    svg.line(on_ray(hit.t), on_ray(t_max),
+             {.stroke = Ink::vermillion, .dashed = true, .arrow = true});
     svg.polygon(view.outline({Double3(triangle.a), Double3(triangle.b), Double3(triangle.c)}),
                 {.fill = Ink::sky, .opacity = 0.55}, "triangle");
     svg.line(on_ray(1.0), on_ray(hit.t), {.stroke = Ink::vermillion});
     svg.begin_group("image-plane");
     svg.polygon({on_image(0, 0), on_image(width, 0), on_image(width, height), on_image(0, height)},
                 {.fill = Ink::paper, .opacity = 0.7});
-    svg.polygon({on_image(pixel_x, pixel_y), on_image(pixel_x + 1, pixel_y), on_image(pixel_x + 1, pixel_y + 1),
-                 on_image(pixel_x, pixel_y + 1)},
+    svg.polygon({on_image(pixel_x, pixel_y), on_image(pixel_x + 1, pixel_y),
+                 on_image(pixel_x + 1, pixel_y + 1), on_image(pixel_x, pixel_y + 1)},
                 {.stroke = {}, .fill = Ink::yellow});
-    for (int x = 0; x <= width; ++x) svg.line(on_image(x, 0), on_image(x, height), {.stroke = Ink::quiet});
-    for (int y = 0; y <= height; ++y) svg.line(on_image(0, y), on_image(width, y), {.stroke = Ink::quiet});
+    for (int x = 0; x <= width; ++x)
+        svg.line(on_image(x, 0), on_image(x, height), {.stroke = Ink::quiet});
+    for (int y = 0; y <= height; ++y)
+        svg.line(on_image(0, y), on_image(width, y), {.stroke = Ink::quiet});
     svg.end_group();
     svg.line(on_ray(0.0), on_ray(1.0), {.stroke = Ink::vermillion});
-    for (const double t : {0.0, 1.0, double{hit.t}}) svg.circle(on_ray(t), 5, {.stroke = {}, .fill = Ink::vermillion});
+    for (const double t : {0.0, 1.0, double{hit.t}})
+        svg.circle(on_ray(t), 5, {.stroke = {}, .fill = Ink::vermillion});
 
     svg.text(moved(on_ray(0), 0, -16), "*O*", {.size = 20});
-    svg.text(moved(on_ray(hit.t), 26, 34), "*P* = *O* + *t D*", {.anchor = Anchor::start, .size = 20, .halo = true});
+    svg.text(moved(on_ray(hit.t), 26, 34), "*P* = *O* + *t D*",
+             {.anchor = Anchor::start, .size = 20, .halo = true});
     svg.text(moved(on_image(0, 0), 0, -14), fmt::format("{} × {} pixels", width, height), {});
     const std::array<std::pair<Point3, const char*>, 3> names{
         {{triangle.a, "*a*"}, {triangle.b, "*b*"}, {triangle.c, "*c*"}}};
     for (const auto& [p, name] : names)
-        svg.text(moved(view(Double3(p)), p.x < 0 ? -14 : 0, p.y > 0 ? -12 : p.x < 0 ? 6 : 24), name, {.size = 20});
+        svg.text(moved(view(Double3(p)), p.x < 0 ? -14 : 0,
+                       p.y > 0   ? -12
+                       : p.x < 0 ? 6
+                                 : 24),
+                 name, {.size = 20});
 
     // The axis of t: every mark stands below its point on the ray.
     svg.begin_group("t-axis");
@@ -283,7 +316,7 @@ void fig_01_03(const Options& options) {
     write(options, "fig_01_03", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.4 The erased hits
 
 void add_pyramid(Scene& scene, const Point3& foot, float half, float height, const Color& color) {
@@ -305,7 +338,8 @@ Scene two_pyramids() {
     scene.colors = {{0.62f, 0.58f, 0.50f}, {0.62f, 0.58f, 0.50f}};
     add_pyramid(scene, {-0.9f, 0, -0.3f}, 1.0f, 1.9f, {0.05f, 0.30f, 0.60f});
     add_pyramid(scene, {1.2f, 0, 0.6f}, 0.8f, 1.4f, {0.80f, 0.25f, 0.03f});
-    scene.camera = {.eye = {0.6f, 2.6f, 6.0f}, .target = {0.1f, 0.55f, 0.0f}, .field_of_view = 36.0f};
+    scene.camera = {
+        .eye = {0.6f, 2.6f, 6.0f}, .target = {0.1f, 0.55f, 0.0f}, .field_of_view = 36.0f};
     scene.lights = {{{5.0f, 6.0f, 4.0f}, Color(150.0f)}, {{-4.0f, 5.0f, 6.0f}, Color(50.0f)}};
     scene.background = {0.72f, 0.82f, 0.88f};
     return scene;
@@ -322,7 +356,9 @@ Image states_of_the_loop(std::size_t polygons, const ColorOfRay& color_after) {
 
 void fig_01_04(const Options& options) {
     Svg svg("fig_01_04",
-            "Algorithm 1 as printed and corrected: two pictures, and one pixel's colour after each polygon", 640, 474);
+            "Algorithm 1 as printed and corrected: two pictures, and one pixel's colour after each "
+            "polygon",
+            640, 474);
     constexpr int width = 40, height = 30, pixel_x = 14, pixel_y = 15;
     const Scene scene = two_pyramids();
     const std::vector<Triangle> triangles = scene.mesh.triangles();
@@ -331,14 +367,16 @@ void fig_01_04(const Options& options) {
     const Rendering corrected = render(scene, Naive<>::build(triangles), settings);
 
     constexpr float pixel = 7.5f;
-    const auto panel = [&](float left, const char* name, const Rendering& rendering, std::string id) {
+    const auto panel = [&](float left, const char* name, const Rendering& rendering,
+                           std::string id) {
         svg.begin_group(id);
         svg.text({left + 150, 24}, name, {.size = 18, .bold = true});
         svg.picture({left, 38}, {width * pixel, height * pixel}, rendering.image);
         svg.rect({left, 38}, {width * pixel, height * pixel}, {.stroke = Ink::quiet});
         svg.rect({left + pixel_x * pixel - 2, 38 + pixel_y * pixel - 2}, {pixel + 4, pixel + 4},
                  {.stroke = Ink::vermillion}, "pixel-" + id);
-        svg.text({left + 150, 288}, fmt::format("{} of {} hits shown", rendering.counts.hits, corrected.counts.hits),
+        svg.text({left + 150, 288},
+                 fmt::format("{} of {} hits shown", rendering.counts.hits, corrected.counts.hits),
                  {});
         svg.end_group();
     };
@@ -363,34 +401,38 @@ void fig_01_04(const Options& options) {
         svg.text({left - 14, top + 26}, name, {.anchor = Anchor::end});
         svg.picture({left, top}, {cell * static_cast<float>(triangles.size()), 40}, states);
         for (std::size_t i = 0; i < triangles.size(); ++i)
-            svg.rect({left + cell * static_cast<float>(i), top}, {cell, 40}, {.stroke = Ink::quiet});
+            svg.rect({left + cell * static_cast<float>(i), top}, {cell, 40},
+                     {.stroke = Ink::quiet});
     };
     strip(374, "as printed", printed_states);
     strip(424, "corrected", corrected_states);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const float x = left + cell * (static_cast<float>(i) + 0.5f);
         const bool hit = MollerTrumbore::intersect(ray, triangles[i]).has_value();
-        svg.text({x, 334}, fmt::format("{}", i + 1), {.ink = hit ? Ink::ink : Ink::quiet, .bold = hit});
+        svg.text({x, 334}, fmt::format("{}", i + 1),
+                 {.ink = hit ? Ink::ink : Ink::quiet, .bold = hit});
         if (hit) svg.circle({x, 354}, 5, {.stroke = {}, .fill = Ink::ink});
     }
     svg.text({left - 14, 360}, "is hit", {.anchor = Anchor::end});
     write(options, "fig_01_04", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.5 The two renderers
 
 void fig_01_05(const Options& options) {
     Svg svg("fig_01_05",
-            "The room by the ray tracer and by the rasteriser; circles mark the pixels that see another triangle", 640,
-            330);
+            "The room by the ray tracer and by the rasteriser; circles mark the pixels that see "
+            "another triangle",
+            640, 330);
     constexpr int width = 300, height = 225;
     const Scene scene = make_scene("room:1");
     const auto naive = Naive<>::build(scene.mesh.triangles());
     const RenderSettings settings{.width = width, .height = height, .threads = options.threads};
     Progress progress("fig_01_05", height);
     const Image traced = render<NoCounts>(scene, naive, settings, &progress).image;
-    const DepthBuffer traced_depth = trace_depth(scene.camera, naive, width, height, options.threads);
+    const DepthBuffer traced_depth =
+        trace_depth(scene.camera, naive, width, height, options.threads);
     const DepthBuffer rasterised_depth = rasterise(scene, width, height);
     const Coverage coverage = compare_coverage(scene, traced_depth, rasterised_depth);
 
@@ -410,14 +452,17 @@ void fig_01_05(const Options& options) {
         }
     svg.end_group();
     svg.text({320, 292},
-             fmt::format("{} of {} pixels see another triangle:", coverage.disagree, with_commas(coverage.pixels)), {});
+             fmt::format("{} of {} pixels see another triangle:", coverage.disagree,
+                         with_commas(coverage.pixels)),
+             {});
     svg.text({320, 316},
-             fmt::format("all within {} pixels of an edge", shown(coverage_distance(scene.camera, width, height), 4)),
+             fmt::format("all within {} pixels of an edge",
+                         shown(coverage_distance(scene.camera, width, height), 4)),
              {});
     write(options, "fig_01_05", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.6, 1.7 Times
 
 void fig_01_06(const Options& options) {
@@ -428,20 +473,24 @@ void fig_01_07(const Options& options) {
     write_chart(options.out, share_chart(measure_shares(effort_of(options), options.seed)));
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.8 Speed and accuracy: float and double
 
-/// Rays from outside at vertices of the unit icosphere, well inside its outline. They end before its far side, so that
-/// each must hit the near side: one that hits nothing slipped through a closed surface.
-std::vector<Ray> rays_at_vertices(const TriangleMesh& sphere, std::size_t count, std::uint64_t seed) {
+/// Rays from outside at vertices of the unit icosphere, well inside its outline. They end before
+/// its far side, so that each must hit the near side: one that hits nothing slipped through a
+/// closed surface.
+std::vector<Ray> rays_at_vertices(const TriangleMesh& sphere, std::size_t count,
+                                  std::uint64_t seed) {
     Pcg32 random(seed);
     const auto coordinate = [&] { return random.uniform(-3.0f, 3.0f); };
     std::vector<Ray> rays;
     while (rays.size() < count) {
         const Point3 origin(coordinate(), coordinate(), coordinate());
-        const Point3& vertex = sphere.vertices[random.below(static_cast<std::uint32_t>(sphere.vertices.size()))];
+        const Point3& vertex =
+            sphere.vertices[random.below(static_cast<std::uint32_t>(sphere.vertices.size()))];
         const Vector3 direction = vertex - origin;
-        // Seen at less than 60 degrees from the normal: the way through the sphere is longer than its radius.
+        // Seen at less than 60 degrees from the normal: the way through the sphere is longer than
+        // its radius.
         if (glm::dot(direction, vertex) < -0.5f * glm::length(direction))
             rays.push_back({origin, direction, 0.0f, 1.1f});
     }
@@ -451,26 +500,28 @@ std::vector<Ray> rays_at_vertices(const TriangleMesh& sphere, std::size_t count,
 template <class Real>
 std::size_t count_leaks(std::span<const Triangle> triangles, std::span<const Ray> rays) {
     const auto naive = Naive<BasicMollerTrumbore<Real>>::build(triangles);
-    return static_cast<std::size_t>(
-        std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return !closest_hit(naive, ray); }));
+    return static_cast<std::size_t>(std::count_if(
+        rays.begin(), rays.end(), [&](const Ray& ray) { return !closest_hit(naive, ray); }));
 }
 
 void fig_01_08(const Options& options) {
     write_chart(options.out, accuracy_chart(options));
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 1.9 The room
 
 void fig_01_09(const Options& options) {
     const Scene scene = make_scene("room");
-    const RenderSettings settings{.width = 640, .height = 480, .samples = 2, .threads = options.threads};
+    const RenderSettings settings{
+        .width = 640, .height = 480, .samples = 2, .threads = options.threads};
     Progress progress("fig_01_09", static_cast<std::size_t>(settings.height));
-    write_png(options.out / "fig_01_09.png",
-              render<NoCounts>(scene, Naive<>::build(scene.mesh.triangles()), settings, &progress).image);
+    write_png(
+        options.out / "fig_01_09.png",
+        render<NoCounts>(scene, Naive<>::build(scene.mesh.triangles()), settings, &progress).image);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 constexpr Figure figures[] = {
     {"fig_01_01", FigureKind::drawing, fig_01_01},   {"fig_01_02", FigureKind::drawing, fig_01_02},
@@ -486,10 +537,12 @@ Chart accuracy_chart(const Options& options) {
     const Effort effort = effort_of(options);
     const Scene scene = make_scene("icosphere:12");
     const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const std::vector<Ray> rays = rays_at_vertices(scene.mesh, effort == Effort::full ? 20'000 : 2'000, options.seed);
+    const std::vector<Ray> rays =
+        rays_at_vertices(scene.mesh, effort == Effort::full ? 20'000 : 2'000, options.seed);
     std::size_t leaks_float = 0, leaks_double = 0;
-    const std::array<std::function<void()>, 2> candidates{[&] { leaks_float = count_leaks<float>(triangles, rays); },
-                                                          [&] { leaks_double = count_leaks<double>(triangles, rays); }};
+    const std::array<std::function<void()>, 2> candidates{
+        [&] { leaks_float = count_leaks<float>(triangles, rays); },
+        [&] { leaks_double = count_leaks<double>(triangles, rays); }};
     const std::vector<double> ms = interleaved_medians(candidates, effort == Effort::full ? 5 : 3);
     const auto per_10000 = [&](std::size_t leaks) {
         return 1e4 * static_cast<double>(leaks) / static_cast<double>(rays.size());

@@ -1,11 +1,11 @@
-/// Micro-benchmarks of chapter 1: one ray-triangle test, and one ray against all triangles of a soup.
-/// Run   ch01_benchmarks --benchmark_filter=closest
+/// Micro-benchmarks of chapter 1: one ray-triangle test, and one ray against all triangles of a
+/// soup. Run   ch01_benchmarks --benchmark_filter=closest
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/scene.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <vector>
-
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/scene.hpp"
 
 namespace {
 
@@ -13,13 +13,16 @@ using namespace space;
 
 constexpr int side = 32;  // rays per row and column of the picture
 
-Scene soup(benchmark::State& state) { return make_scene("soup:" + std::to_string(state.range(0))); }
+Scene soup(benchmark::State& state) {
+    return make_scene("soup:" + std::to_string(state.range(0)));
+}
 
 std::vector<Ray> camera_rays(const Scene& scene) {
     const CameraFrame frame(scene.camera);
     std::vector<Ray> rays;
     for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) rays.push_back(camera_ray(scene.camera, frame, x + 0.5, y + 0.5, side, side));
+        for (int x = 0; x < side; ++x)
+            rays.push_back(camera_ray(scene.camera, frame, x + 0.5, y + 0.5, side, side));
     return rays;
 }
 
@@ -29,7 +32,8 @@ void moller_trumbore(benchmark::State& state) {
     const std::vector<Ray> rays = camera_rays(scene);
     std::size_t i = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(MollerTrumbore::intersect(rays[i % rays.size()], triangles[i % triangles.size()]));
+        benchmark::DoNotOptimize(
+            MollerTrumbore::intersect(rays[i % rays.size()], triangles[i % triangles.size()]));
         ++i;
     }
 }

@@ -1,20 +1,21 @@
 #include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
 
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "common/measure.hpp"
+#include "common/program/progress.hpp"
+#include "common/program/report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <functional>
 
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/measure.hpp"
-#include "common/program/progress.hpp"
-#include "common/program/report.hpp"
-
 namespace space::ch01 {
 namespace {
 
-/// A scene with the sizes that give it about 1 K, 10 K, 100 K and 1 M triangles; fewer where it has no such size.
+/// A scene with the sizes that give it about 1 K, 10 K, 100 K and 1 M triangles; fewer where it has
+/// no such size.
 struct Sizes {
     const char* name;
     std::vector<std::uint32_t> large;
@@ -34,7 +35,8 @@ const std::array<Sizes, 5>& sized_scenes() {
 struct Measured {
     std::string name, spec;
 };
-/// The scenes of a series of measurements, size after size: the first few small ones, the first few large ones.
+/// The scenes of a series of measurements, size after size: the first few small ones, the first few
+/// large ones.
 std::vector<Measured> series(std::size_t small_sizes, std::size_t large_sizes) {
     std::vector<Measured> measured;
     for (const Sizes& scene : sized_scenes()) {
@@ -127,9 +129,11 @@ std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigne
              .pixels = static_cast<std::uint64_t>(width * height),
              .rendering = render(scene, naive, settings).counts,
              .hits_as_printed = algorithm1_as_printed(scene, triangles, settings).counts.hits,
-             .hits_in_reverse = algorithm1_as_printed(reversed, reversed.mesh.triangles(), settings).counts.hits,
-             .coverage = compare_coverage(scene, trace_depth(scene.camera, naive, width, height, threads),
-                                          rasterise(scene, width, height)),
+             .hits_in_reverse =
+                 algorithm1_as_printed(reversed, reversed.mesh.triangles(), settings).counts.hits,
+             .coverage =
+                 compare_coverage(scene, trace_depth(scene.camera, naive, width, height, threads),
+                                  rasterise(scene, width, height)),
              .winding = check_winding(triangles)});
         progress.step();
     }
@@ -152,7 +156,9 @@ std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed) {
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i)
-                    keep(render<NoCounts>(scene, naive, {.width = naive_width, .height = naive_height}).image);
+                    keep(render<NoCounts>(scene, naive,
+                                          {.width = naive_width, .height = naive_height})
+                             .image);
             },
             [&] {
                 for (int i = 0; i < repeats; ++i) keep(rasterise(scene, width, height).pixels);
@@ -214,13 +220,14 @@ Slopes slopes(const std::vector<GrowthPoint>& growth, const std::string& scene) 
 }
 
 Chart growth_chart(const std::vector<GrowthPoint>& growth) {
-    Chart chart{.id = "fig_01_06",
-                .title = "Time per pixel against the number of triangles, naive ray tracer and rasteriser",
-                .x_label = "triangles",
-                .y_label = "time per pixel in µs",
-                .log_x = true,
-                .log_y = true,
-                .series = {}};
+    Chart chart{
+        .id = "fig_01_06",
+        .title = "Time per pixel against the number of triangles, naive ray tracer and rasteriser",
+        .x_label = "triangles",
+        .y_label = "time per pixel in µs",
+        .log_x = true,
+        .log_y = true,
+        .series = {}};
     for (const std::string scene : {"soup", "icosphere"}) {
         std::vector<double> triangles, naive, rasteriser;
         for (const GrowthPoint& point : of_scene(growth, scene)) {
@@ -229,23 +236,27 @@ Chart growth_chart(const std::vector<GrowthPoint>& growth) {
             rasteriser.push_back(point.rasteriser_us);
         }
         const Slopes slope = slopes(growth, scene);
-        chart.series.push_back(
-            {.name = "naive, " + scene, .x = triangles, .y = naive, .note = fmt::format("slope {:.2f}", slope.naive)});
-        chart.series.push_back({.name = "rasteriser, " + scene,
+        chart.series.push_back({.name = "naive, " + scene,
                                 .x = triangles,
-                                .y = rasteriser,
-                                .note = fmt::format("slope at the end {:.2f}", slope.rasteriser_last)});
+                                .y = naive,
+                                .note = fmt::format("slope {:.2f}", slope.naive)});
+        chart.series.push_back(
+            {.name = "rasteriser, " + scene,
+             .x = triangles,
+             .y = rasteriser,
+             .note = fmt::format("slope at the end {:.2f}", slope.rasteriser_last)});
     }
     return chart;
 }
 
 Chart share_chart(const std::vector<SharePoint>& shares) {
-    Chart chart{.id = "fig_01_07",
-                .title = "Share of the time spent in intersection tests against the number of triangles",
-                .x_label = "triangles",
-                .y_label = "share of time in intersection tests, %",
-                .log_x = true,
-                .series = {}};
+    Chart chart{
+        .id = "fig_01_07",
+        .title = "Share of the time spent in intersection tests against the number of triangles",
+        .x_label = "triangles",
+        .y_label = "share of time in intersection tests, %",
+        .log_x = true,
+        .series = {}};
     for (const std::string& scene : scenes_of(shares)) {
         std::vector<double> triangles, percent;
         for (const SharePoint& point : of_scene(shares, scene)) {
@@ -257,7 +268,8 @@ Chart share_chart(const std::vector<SharePoint>& shares) {
     return chart;
 }
 
-std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, const std::vector<GrowthPoint>& growth,
+std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts,
+                                       const std::vector<GrowthPoint>& growth,
                                        const std::vector<SharePoint>& shares) {
     const auto linear = [](double slope) { return slope >= 0.9 && slope <= 1.1; };
 
@@ -268,20 +280,22 @@ std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, c
     for (const std::string& scene : grown) {
         const Slopes slope = slopes(growth, scene);
         naive_slopes.push_back(fmt::format("{} {:.2f}", scene, slope.naive));
-        rasteriser_slopes.push_back(
-            fmt::format("{} {:.2f} ({:.2f} over all)", scene, slope.rasteriser_last, slope.rasteriser));
+        rasteriser_slopes.push_back(fmt::format("{} {:.2f} ({:.2f} over all)", scene,
+                                                slope.rasteriser_last, slope.rasteriser));
         naive_linear += linear(slope.naive);
         rasteriser_linear += slope.rasteriser_last >= 0.8 && slope.rasteriser_last <= 1.2;
     }
-    const auto [least, most] = std::minmax_element(
-        growth.begin(), growth.end(), [](const auto& a, const auto& b) { return a.triangles < b.triangles; });
-    const std::string range =
-        fmt::format("{}; {} to {} triangles", joined(grown), with_commas(static_cast<std::uint64_t>(least->triangles)),
-                    with_commas(static_cast<std::uint64_t>(most->triangles)));
+    const auto [least, most] =
+        std::minmax_element(growth.begin(), growth.end(),
+                            [](const auto& a, const auto& b) { return a.triangles < b.triangles; });
+    const std::string range = fmt::format("{}; {} to {} triangles", joined(grown),
+                                          with_commas(static_cast<std::uint64_t>(least->triangles)),
+                                          with_commas(static_cast<std::uint64_t>(most->triangles)));
 
     // H2: the share.
-    const auto [lowest, highest] = std::minmax_element(
-        shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.share() < b.share(); });
+    const auto [lowest, highest] =
+        std::minmax_element(shares.begin(), shares.end(),
+                            [](const auto& a, const auto& b) { return a.share() < b.share(); });
     const Verdict share_verdict = highest->share() < 0.90    ? Verdict::refuted
                                   : highest->share() <= 0.97 ? Verdict::confirmed
                                                              : Verdict::depends;
@@ -304,33 +318,42 @@ std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, c
     const bool flips = winding.flipped == winding.triangles && winding.kept == winding.triangles;
 
     return {
-        {"H1", over_scenes(naive_linear, grown.size()), fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
-         "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on every scene, refuted "
+        {"H1", over_scenes(naive_linear, grown.size()),
+         fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
+         "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on "
+         "every scene, refuted "
          "if "
          "on none"},
         {"H2", share_verdict,
-         fmt::format(
-             "from {:.1f} % ({}, {} triangles) to {:.1f} % ({}, {} triangles): the share grows with the triangles",
-             100.0 * lowest->share(), lowest->scene, with_commas(static_cast<std::uint64_t>(lowest->triangles)),
-             100.0 * highest->share(), highest->scene, with_commas(static_cast<std::uint64_t>(highest->triangles))),
+         fmt::format("from {:.1f} % ({}, {} triangles) to {:.1f} % ({}, {} triangles): the share "
+                     "grows with the triangles",
+                     100.0 * lowest->share(), lowest->scene,
+                     with_commas(static_cast<std::uint64_t>(lowest->triangles)),
+                     100.0 * highest->share(), highest->scene,
+                     with_commas(static_cast<std::uint64_t>(highest->triangles))),
          joined(scenes_of(shares)),
-         "confirmed if the largest share is within 90 .. 97 %, depends (on the number of triangles) if it is larger, "
+         "confirmed if the largest share is within 90 .. 97 %, depends (on the number of "
+         "triangles) if it is larger, "
          "refuted if it is smaller"},
         {"H3", flips ? Verdict::confirmed : Verdict::refuted,
-         fmt::format(
-             "of {} triangles {} flip when two vertices are exchanged, {} keep their side when the vertices are "
-             "turned in a circle",
-             with_commas(winding.triangles), with_commas(winding.flipped), with_commas(winding.kept)),
+         fmt::format("of {} triangles {} flip when two vertices are exchanged, {} keep their side "
+                     "when the vertices are "
+                     "turned in a circle",
+                     with_commas(winding.triangles), with_commas(winding.flipped),
+                     with_commas(winding.kept)),
          joined(counted), "confirmed if all triangles do both"},
         {"H14", over_scenes(erasing, counts.size()),
-         fmt::format(
-             "of {} pixels that hit something {} still show it as printed, {} with the triangles in reverse order",
-             with_commas(hits), with_commas(printed), with_commas(reversed)),
+         fmt::format("of {} pixels that hit something {} still show it as printed, {} with the "
+                     "triangles in reverse order",
+                     with_commas(hits), with_commas(printed), with_commas(reversed)),
          joined(counted),
-         "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, refuted if on none"},
+         "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, "
+         "refuted if on none"},
         {"P1", over_scenes(rasteriser_linear, grown.size()),
-         fmt::format("log-log slopes between the two largest sizes: {}", joined(rasteriser_slopes)), range,
-         "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is within 0.8 .. 1.2 on "
+         fmt::format("log-log slopes between the two largest sizes: {}", joined(rasteriser_slopes)),
+         range,
+         "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is "
+         "within 0.8 .. 1.2 on "
          "every "
          "scene, refuted if on none"},
     };
@@ -338,18 +361,20 @@ std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, c
 
 void print_counts(const std::vector<SceneCounts>& all) {
     print_heading("Tests per pixel, and hits that Algorithm 1 as printed erases");
-    Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse", "shadow rays",
-                 "occluded", "tests", "per pixel"});
+    Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse",
+                 "shadow rays", "occluded", "tests", "per pixel"});
     for (const SceneCounts& s : all)
         tests.row({s.scene, with_commas(s.triangles), with_commas(s.lights), with_commas(s.pixels),
-                   with_commas(s.rendering.hits), with_commas(s.hits_as_printed), with_commas(s.hits_in_reverse),
-                   with_commas(s.rendering.shadow_rays), with_commas(s.rendering.occluded),
+                   with_commas(s.rendering.hits), with_commas(s.hits_as_printed),
+                   with_commas(s.hits_in_reverse), with_commas(s.rendering.shadow_rays),
+                   with_commas(s.rendering.occluded),
                    with_commas(s.rendering.traversal.triangles_tested),
                    with_commas(s.rendering.traversal.triangles_tested / s.pixels)});
     tests.print();
 
     print_heading("Ray tracer and rasteriser: pixels in which they see different triangles");
-    Table coverage({"scene", "pixels", "covered", "differ", "near an edge", "same depth", "unexplained"});
+    Table coverage(
+        {"scene", "pixels", "covered", "differ", "near an edge", "same depth", "unexplained"});
     for (const SceneCounts& s : all)
         coverage.row({s.scene, with_commas(s.coverage.pixels), with_commas(s.coverage.covered),
                       with_commas(s.coverage.disagree), with_commas(s.coverage.near_edge),
@@ -361,7 +386,8 @@ void print_times(const std::vector<GrowthPoint>& growth, const std::vector<Share
     print_heading("Time per pixel against triangles (one thread, medians of interleaved runs)");
     Table times({"scene", "triangles", "naive, µs", "rasteriser, µs", "ratio"});
     for (const GrowthPoint& point : growth)
-        times.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.1f}", point.naive_us),
+        times.row({point.scene, with_commas(std::uint64_t(point.triangles)),
+                   fmt::format("{:.1f}", point.naive_us),
                    fmt::format("{:.4f}", point.rasteriser_us),
                    fmt::format("{:.0f}", point.naive_us / point.rasteriser_us)});
     times.print();
@@ -369,8 +395,10 @@ void print_times(const std::vector<GrowthPoint>& growth, const std::vector<Share
     print_heading("Share of the time spent in intersection tests");
     Table share({"scene", "triangles", "rendering, ms", "its tests alone, ms", "share"});
     for (const SharePoint& point : shares)
-        share.row({point.scene, with_commas(std::uint64_t(point.triangles)), fmt::format("{:.2f}", point.rendering_ms),
-                   fmt::format("{:.2f}", point.intersections_ms), fmt::format("{:.1f} %", 100 * point.share())});
+        share.row({point.scene, with_commas(std::uint64_t(point.triangles)),
+                   fmt::format("{:.2f}", point.rendering_ms),
+                   fmt::format("{:.2f}", point.intersections_ms),
+                   fmt::format("{:.1f} %", 100 * point.share())});
     share.print();
 }
 

@@ -2,16 +2,16 @@
 /// What chapter 1 counts and measures, and how its claims are answered from that.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "chapters/ch01_naive_ray_tracing/coverage.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/program/chart.hpp"
 #include "common/program/options.hpp"
 #include "common/program/results.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace space::ch01 {
 
@@ -33,8 +33,10 @@ struct SceneCounts {
     std::string scene;
     std::uint64_t triangles = 0, lights = 0, pixels = 0;
     RenderCounts rendering;
-    std::uint64_t hits_as_printed = 0;  ///< pixels that still show a triangle in Algorithm 1 as printed
-    std::uint64_t hits_in_reverse = 0;  ///< the same, the triangles listed from the last to the first
+    std::uint64_t hits_as_printed =
+        0;  ///< pixels that still show a triangle in Algorithm 1 as printed
+    std::uint64_t hits_in_reverse =
+        0;  ///< the same, the triangles listed from the last to the first
     Coverage coverage;
     Winding winding;
 };
@@ -43,18 +45,19 @@ Scene in_reverse(Scene scene);
 /// For five scenes. --small takes their small sizes.
 std::vector<SceneCounts> count_scenes(Effort effort, std::uint64_t seed, unsigned threads);
 
-/// Time to draw one scene with one thread, divided by the picture's pixels: 8 x 6 for the naive ray tracer, whose time
-/// is linear in them, 640 x 480 for the rasteriser.
+/// Time to draw one scene with one thread, divided by the picture's pixels: 8 x 6 for the naive ray
+/// tracer, whose time is linear in them, 640 x 480 for the rasteriser.
 struct GrowthPoint {
     std::string scene;
     double triangles = 0;
-    double naive_us = 0, rasteriser_us = 0;  ///< microseconds per pixel, medians of interleaved runs
+    double naive_us = 0,
+           rasteriser_us = 0;  ///< microseconds per pixel, medians of interleaved runs
 };
 /// Five scenes, from 1 K to 1 M triangles (slivers to 100 K).
 std::vector<GrowthPoint> measure_growth(Effort effort, std::uint64_t seed);
 
-/// Whitted's share. A picture is rendered once to record its rays; then rendering is timed, and beside it, in turns,
-/// the same rays' intersection tests alone.
+/// Whitted's share. A picture is rendered once to record its rays; then rendering is timed, and
+/// beside it, in turns, the same rays' intersection tests alone.
 struct SharePoint {
     std::string scene;
     double triangles = 0;
@@ -87,15 +90,16 @@ std::vector<std::string> scenes_of(const std::vector<Point>& points) {
     return names;
 }
 
-/// Growth exponents of one scene: naive tracing over all sizes; rasterising over all, and between the two largest,
-/// where the pixels' share has faded.
+/// Growth exponents of one scene: naive tracing over all sizes; rasterising over all, and between
+/// the two largest, where the pixels' share has faded.
 struct Slopes {
     double naive, rasteriser, rasteriser_last;
 };
 Slopes slopes(const std::vector<GrowthPoint>& growth, const std::string& scene);
 
 /// The answers to H1, H2, H3, H14 and P1.
-std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts, const std::vector<GrowthPoint>& growth,
+std::vector<ClaimAnswer> answer_claims(const std::vector<SceneCounts>& counts,
+                                       const std::vector<GrowthPoint>& growth,
                                        const std::vector<SharePoint>& shares);
 
 /// Tables on the terminal.

@@ -1,11 +1,12 @@
 /// @file
-/// Exercise 1.1, a near miss: nothing is erased any more, but the first hit in the list is taken for the nearest.
+/// Exercise 1.1, a near miss: nothing is erased any more, but the first hit in the list is taken
+/// for the nearest.
 #pragma once
+
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 
 #include <optional>
 #include <span>
-
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 
 namespace space {
 

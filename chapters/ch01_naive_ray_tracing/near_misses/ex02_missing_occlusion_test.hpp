@@ -1,15 +1,17 @@
 /// @file
-/// Exercise 1.2, a near miss: the ray goes on beyond the light, so that the ceiling above a lamp darkens the room.
+/// Exercise 1.2, a near miss: the ray goes on beyond the light, so that the ceiling above a lamp
+/// darkens the room.
 #pragma once
-
-#include <span>
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "common/scene.hpp"
 
+#include <span>
+
 namespace space {
 
-inline bool light_reaches(const Point3& origin, const PointLight& light, std::span<const Triangle> triangles) {
+inline bool light_reaches(const Point3& origin, const PointLight& light,
+                          std::span<const Triangle> triangles) {
     const Ray shadow{.origin = origin, .direction = light.position - origin};
     for (const Triangle& triangle : triangles)
         if (MollerTrumbore::intersect(shadow, triangle)) return false;

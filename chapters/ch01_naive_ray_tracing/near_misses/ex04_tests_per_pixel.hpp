@@ -1,13 +1,13 @@
 /// @file
-/// Exercise 1.4, a near miss: every light costs a test of every triangle, as if each light had a shadow ray and no
-/// shadow ray stopped at the first hit.
+/// Exercise 1.4, a near miss: every light costs a test of every triangle, as if each light had a
+/// shadow ray and no shadow ray stopped at the first hit.
 #pragma once
-
-#include <cstdint>
-#include <vector>
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/shading.hpp"
+
+#include <cstdint>
+#include <vector>
 
 namespace space {
 

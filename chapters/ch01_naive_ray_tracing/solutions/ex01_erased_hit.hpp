@@ -2,10 +2,10 @@
 /// Exercise 1.1, solution.
 #pragma once
 
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+
 #include <optional>
 #include <span>
-
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 
 namespace space {
 

@@ -2,15 +2,17 @@
 /// Exercise 1.2, solution.
 #pragma once
 
-#include <span>
-
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "common/scene.hpp"
 
+#include <span>
+
 namespace space {
 
-inline bool light_reaches(const Point3& origin, const PointLight& light, std::span<const Triangle> triangles) {
-    const Ray shadow{.origin = origin, .direction = light.position - origin, .tmin = 0.0f, .tmax = 1.0f};
+inline bool light_reaches(const Point3& origin, const PointLight& light,
+                          std::span<const Triangle> triangles) {
+    const Ray shadow{
+        .origin = origin, .direction = light.position - origin, .tmin = 0.0f, .tmax = 1.0f};
     for (const Triangle& triangle : triangles)
         if (MollerTrumbore::intersect(shadow, triangle)) return false;
     return true;

@@ -6,8 +6,8 @@ using namespace space;
 
 namespace {
 
-/// In whole numbers: origin and direction components are at most 3, so that doubles compare the slabs' ends exactly as
-/// products.
+/// In whole numbers: origin and direction components are at most 3, so that doubles compare the
+/// slabs' ends exactly as products.
 bool exactly_hits(const Ray& ray, const Aabb& box) {
     double enter = 0.0, leave = infinity;
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +48,8 @@ TEST_CASE("all rays from whole points in whole directions are decided as in exac
                     for (const float dy : steps)
                         for (const float dz : steps) {
                             const Ray ray{{x, y, z}, {dx, dy, dz}};
-                            if (is_valid(ray)) wrong += hits_box(ray, box) != exactly_hits(ray, box);
+                            if (is_valid(ray))
+                                wrong += hits_box(ray, box) != exactly_hits(ray, box);
                         }
     CHECK(wrong == 0);
 }

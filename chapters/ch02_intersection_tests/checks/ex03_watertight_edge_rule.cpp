@@ -1,10 +1,10 @@
 #include "ex03_watertight_edge_rule.hpp"
 
-#include <array>
-#include <vector>
-
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+
+#include <array>
+#include <vector>
 
 using namespace space;
 
@@ -17,7 +17,8 @@ std::vector<Face> square(int n, Pcg32& random) {
     std::vector<Face> faces;
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-            const Point2 a(4 * x, 4 * y), b(4 * x + 4, 4 * y), c(4 * x + 4, 4 * y + 4), d(4 * x, 4 * y + 4);
+            const Point2 a(4 * x, 4 * y), b(4 * x + 4, 4 * y), c(4 * x + 4, 4 * y + 4),
+                d(4 * x, 4 * y + 4);
             if (random.below(2))
                 faces.insert(faces.end(), {Face{a, b, c}, Face{a, c, d}});
             else
@@ -57,6 +58,7 @@ TEST_CASE("every point inside a triangulated square belongs to exactly one trian
 TEST_CASE("the hub of a fan belongs to exactly one of its triangles") {
     const std::array<Point2, 6> rim{{{8, 0}, {4, 7}, {-4, 7}, {-8, 0}, {-4, -7}, {4, -7}}};
     std::vector<Face> fan;
-    for (std::size_t i = 0; i < rim.size(); ++i) fan.push_back({Point2(0), rim[i], rim[(i + 1) % rim.size()]});
+    for (std::size_t i = 0; i < rim.size(); ++i)
+        fan.push_back({Point2(0), rim[i], rim[(i + 1) % rim.size()]});
     CHECK(owners(fan, Point2(0)) == 1);
 }

@@ -1,23 +1,25 @@
 #include "ex04_reciprocal_root.hpp"
 
-#include <cmath>
-
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+
+#include <cmath>
 
 using namespace space;
 
 namespace {
 
 double relative_error(float a) {
-    return std::abs(static_cast<double>(reciprocal_root(a)) * std::sqrt(static_cast<double>(a)) - 1.0);
+    return std::abs(static_cast<double>(reciprocal_root(a)) * std::sqrt(static_cast<double>(a)) -
+                    1.0);
 }
 
 }  // namespace
 
 TEST_CASE("the reciprocal root of powers of four is nearly a power of two") {
     for (int exponent = -60; exponent <= 60; exponent += 2)
-        CHECK(std::abs(std::ldexp(reciprocal_root(std::ldexp(1.0f, exponent)), exponent / 2) - 1.0f) <= 0x1p-21f);
+        CHECK(std::abs(std::ldexp(reciprocal_root(std::ldexp(1.0f, exponent)), exponent / 2) -
+                       1.0f) <= 0x1p-21f);
 }
 
 TEST_CASE("the relative error is at most 2^-21 over two binades") {

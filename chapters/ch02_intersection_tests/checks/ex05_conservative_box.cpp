@@ -26,7 +26,8 @@ TEST_CASE("no ray towards a corner that hits the box in exact arithmetic is miss
         Aabb box;
         box.extend(point(random, -1, 1));
         box.extend(point(random, -1, 1));
-        const Point3 corner{(random.below(2) ? box.min : box.max).x, (random.below(2) ? box.min : box.max).y,
+        const Point3 corner{(random.below(2) ? box.min : box.max).x,
+                            (random.below(2) ? box.min : box.max).y,
                             (random.below(2) ? box.min : box.max).z};
         const Point3 origin = point(random, -9, 9);
         // Of any length: where the corner is at t = 1 the roundings nearly cancel.
@@ -45,7 +46,9 @@ TEST_CASE("a ray that passes at a thousandth of the box's size is missed") {
     int wrong = 0;
     for (int i = 0; i < 10'000; ++i) {
         const Point3 origin(random.uniform(-9, -2), random.uniform(-1, 1), random.uniform(-1, 1));
-        const Point3 beside(0.0f, 1.001f, random.uniform(-1, 1));  // the box ends at y = 1; below, the ray goes upwards
+        const Point3 beside(
+            0.0f, 1.001f,
+            random.uniform(-1, 1));  // the box ends at y = 1; below, the ray goes upwards
         wrong += may_hit_box({origin, beside - origin}, {{0, -1, -1}, {1, 1, 1}});
     }
     CHECK(wrong == 0);

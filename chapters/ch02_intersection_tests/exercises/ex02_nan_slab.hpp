@@ -2,16 +2,16 @@
 /// Exercise 2.2: The NaN slab
 /// Difficulty 2 of 3, about 20 minutes.
 ///
-/// A ray that runs in the plane of a box's face has a direction component of zero and an origin on the slab: 0 times
-/// infinity is not a number, and the comparison after it goes astray. The stub loses such rays. Make it right for every
-/// ray whose numbers are small and whole, with 0 and -0 among the direction's components: the box is closed. No case of
-/// its own for zero is needed.
+/// A ray that runs in the plane of a box's face has a direction component of zero and an origin on
+/// the slab: 0 times infinity is not a number, and the comparison after it goes astray. The stub
+/// loses such rays. Make it right for every ray whose numbers are small and whole, with 0 and -0
+/// among the direction's components: the box is closed. No case of its own for zero is needed.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "common/geometry.hpp"
 
 namespace space {
 

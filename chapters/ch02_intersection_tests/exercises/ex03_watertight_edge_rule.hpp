@@ -2,10 +2,11 @@
 /// Exercise 2.3: A watertight edge rule
 /// Difficulty 2 of 3, about 25 minutes.
 ///
-/// A point on the common edge of two triangles belongs to both if triangles are closed, and the picture paints it twice; it
-/// belongs to none if they are open, and the picture has a hole. Give each point of a triangulated region to exactly one
-/// triangle: a point on an edge belongs to the triangle for which the edge is a left edge or a horizontal lower edge (any
-/// such rule does). Triangles are counter-clockwise, coordinates small whole numbers: the edge functions are exact.
+/// A point on the common edge of two triangles belongs to both if triangles are closed, and the
+/// picture paints it twice; it belongs to none if they are open, and the picture has a hole. Give
+/// each point of a triangulated region to exactly one triangle: a point on an edge belongs to the
+/// triangle for which the edge is a left edge or a horizontal lower edge (any such rule does).
+/// Triangles are counter-clockwise, coordinates small whole numbers: the edge functions are exact.
 #pragma once
 
 #include "common/geometry.hpp"

@@ -2,15 +2,16 @@
 /// Exercise 2.4: Newton for the reciprocal root
 /// Difficulty 2 of 3, about 20 minutes.
 ///
-/// Newton's method for y = 1 / sqrt(a), a zero of f(y) = 1 / y^2 - a, needs no division: derive its step, and take as many
-/// rounds as the error allows. The stub returns the first guess, up to 3.5 % off. Wanted is a relative error of at most
-/// 2^-21 for every positive normal float; the exponent tells how many rounds that takes.
+/// Newton's method for y = 1 / sqrt(a), a zero of f(y) = 1 / y^2 - a, needs no division: derive its
+/// step, and take as many rounds as the error allows. The stub returns the first guess, up to 3.5 %
+/// off. Wanted is a relative error of at most 2^-21 for every positive normal float; the exponent
+/// tells how many rounds that takes.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <bit>
 #include <cstdint>
-
-#include "common/geometry.hpp"
 
 namespace space {
 

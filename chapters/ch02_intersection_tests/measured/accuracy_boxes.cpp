@@ -1,11 +1,11 @@
-#include <cmath>
-
-#include <glm/gtc/quaternion.hpp>
-
 #include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
 #include "chapters/ch02_intersection_tests/measured/chunks.hpp"
 #include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
 #include "chapters/ch02_intersection_tests/oriented_box.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
 
 namespace space::ch02 {
 namespace {
@@ -26,7 +26,8 @@ void count(const RayAndBox& pair, BoxAccuracy& accuracy) {
 /// The decision about a turned box in double: of the box as its float members say.
 bool hits_in_double(const Ray& ray, const OrientedBox& box) {
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(box.axes));
-    const Double3 origin = inverse * (Double3(ray.origin) - Double3(box.center)), direction = inverse * Double3(ray.direction);
+    const Double3 origin = inverse * (Double3(ray.origin) - Double3(box.center)),
+                  direction = inverse * Double3(ray.direction);
     double enter = ray.tmin, leave = ray.tmax;
     for (int axis = 0; axis < 3; ++axis) {
         const double t0 = (-box.half[axis] - origin[axis]) / direction[axis];
@@ -46,16 +47,18 @@ BoxAccuracy lattice_box_accuracy() {
 }
 
 BoxAccuracy box_accuracy(std::uint64_t pairs, std::uint64_t seed, unsigned threads) {
-    const auto parts = count_by_chunks<BoxAccuracy>(pairs, seed, threads, [](Pcg32& random, std::uint64_t size) {
-        BoxAccuracy part;
-        for (std::uint64_t i = 0; i < size; ++i) count(make_box_pair(random), part);
-        return part;
-    });
+    const auto parts =
+        count_by_chunks<BoxAccuracy>(pairs, seed, threads, [](Pcg32& random, std::uint64_t size) {
+            BoxAccuracy part;
+            for (std::uint64_t i = 0; i < size; ++i) count(make_box_pair(random), part);
+            return part;
+        });
     BoxAccuracy sum;
     for (const BoxAccuracy& part : parts) {
         sum.pairs += part.pairs;
         sum.exact_hits += part.exact_hits;
-        for (std::size_t test = 0; test < box_test_count; ++test) sum.wrong[test].add(part.wrong[test]);
+        for (std::size_t test = 0; test < box_test_count; ++test)
+            sum.wrong[test].add(part.wrong[test]);
     }
     return sum;
 }
@@ -67,7 +70,8 @@ RaysFromInside rays_from_inside(std::uint64_t rays, std::uint64_t seed) {
         const Point3 p = random_vector(random), q = random_vector(random);
         const Aabb box{glm::min(p, q), glm::max(p, q)};
         const Double3 share = 0.5 + 0.5 * Double3(random_vector(random));
-        const Ray ray{.origin = glm::clamp(Point3(Double3(box.min) + share * Double3(box.extent())), box.min, box.max),
+        const Ray ray{.origin = glm::clamp(Point3(Double3(box.min) + share * Double3(box.extent())),
+                                           box.min, box.max),
                       .direction = Vector3(random_direction(random))};
         for_each_named(box_tests, [&](std::size_t test, const auto& named) {
             result.rejected[test] += !TestOf<decltype(named)>::intersect(ray, box);
@@ -80,7 +84,8 @@ OrientedBoxes oriented_box_accuracy(std::uint64_t rays, std::uint64_t seed) {
     Pcg32 random(seed);
     OrientedBoxes result{.rays = rays};
     for (std::uint64_t i = 0; i < rays; ++i) {
-        // A turn by half the circle about a random axis after another one: any turn (Cartan-Dieudonné).
+        // A turn by half the circle about a random axis after another one: any turn
+        // (Cartan-Dieudonné).
         const Double3 first = random_direction(random), second = random_direction(random);
         const glm::dquat turn = glm::dquat(0.0, first) * glm::dquat(0.0, second);
         const Vector3 half = 0.5f + 0.5f * random_vector(random);

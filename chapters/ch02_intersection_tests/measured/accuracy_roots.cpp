@@ -1,10 +1,10 @@
-#include <cmath>
-#include <utility>
+#include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
+#include "chapters/ch02_intersection_tests/square_roots.hpp"
 
 #include <fmt/format.h>
 
-#include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
-#include "chapters/ch02_intersection_tests/square_roots.hpp"
+#include <cmath>
+#include <utility>
 
 namespace space::ch02 {
 namespace {
@@ -19,12 +19,19 @@ float by_estimate(float a) {
     return a * hardware_reciprocal_root<Rounds>(a);
 }
 #endif
-float library_root(float a) { return std::sqrt(a); }
+float library_root(float a) {
+    return std::sqrt(a);
+}
 
-/// The error of the root of a in units in the last place, by the root in double, which is off by 2^-29 of them.
-double root_ulps(const RootForm& form, float a) { return ulps(form.root(a), std::sqrt(double{a})); }
+/// The error of the root of a in units in the last place, by the root in double, which is off by
+/// 2^-29 of them.
+double root_ulps(const RootForm& form, float a) {
+    return ulps(form.root(a), std::sqrt(double{a}));
+}
 
-float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+float float_of(std::uint32_t bits) {
+    return std::bit_cast<float>(bits);
+}
 
 }  // namespace
 

@@ -15,33 +15,35 @@ Ray ray_at(const Sphere& sphere, double distance, Pcg32& random) {
 
 }  // namespace
 
-SphereAccuracy sphere_accuracy(double distance, std::uint64_t pairs, std::uint64_t seed, unsigned threads) {
-    const auto parts = count_by_chunks<SphereAccuracy>(pairs, seed, threads, [&](Pcg32& random, std::uint64_t size) {
-        SphereAccuracy part;
-        for (std::uint64_t i = 0; i < size; ++i) {
-            const Sphere sphere{random_vector(random), 1.0f};
-            const Ray ray = ray_at(sphere, distance, random);
-            const ExactQuadratic exact(ray, sphere);
-            const bool hits = exactly_hits_ahead(exact);
-            const double t = hits ? exact_first_t(exact) : 0.0;
-            part.exact_hits += hits;
-            for_each_named(sphere_tests, [&](std::size_t test, const auto& named) {
-                using Test = TestOf<decltype(named)>;
-                bool hit = false;
-                if constexpr (requires { Test::hits(ray, sphere); }) {
-                    hit = Test::hits(ray, sphere);
-                } else if (const auto found = Test::intersect(ray, sphere)) {
-                    hit = true;
-                    if (hits) part.t[test].add(ulps(*found, t));
-                }
-                part.wrong[test].test = named.name;
-                ++part.wrong[test].decisions;
-                part.wrong[test].hits += hit && !hits;
-                part.wrong[test].misses += !hit && hits;
-            });
-        }
-        return part;
-    });
+SphereAccuracy sphere_accuracy(double distance, std::uint64_t pairs, std::uint64_t seed,
+                               unsigned threads) {
+    const auto parts = count_by_chunks<SphereAccuracy>(
+        pairs, seed, threads, [&](Pcg32& random, std::uint64_t size) {
+            SphereAccuracy part;
+            for (std::uint64_t i = 0; i < size; ++i) {
+                const Sphere sphere{random_vector(random), 1.0f};
+                const Ray ray = ray_at(sphere, distance, random);
+                const ExactQuadratic exact(ray, sphere);
+                const bool hits = exactly_hits_ahead(exact);
+                const double t = hits ? exact_first_t(exact) : 0.0;
+                part.exact_hits += hits;
+                for_each_named(sphere_tests, [&](std::size_t test, const auto& named) {
+                    using Test = TestOf<decltype(named)>;
+                    bool hit = false;
+                    if constexpr (requires { Test::hits(ray, sphere); }) {
+                        hit = Test::hits(ray, sphere);
+                    } else if (const auto found = Test::intersect(ray, sphere)) {
+                        hit = true;
+                        if (hits) part.t[test].add(ulps(*found, t));
+                    }
+                    part.wrong[test].test = named.name;
+                    ++part.wrong[test].decisions;
+                    part.wrong[test].hits += hit && !hits;
+                    part.wrong[test].misses += !hit && hits;
+                });
+            }
+            return part;
+        });
     SphereAccuracy sum;
     sum.distance = distance;
     sum.pairs = pairs;

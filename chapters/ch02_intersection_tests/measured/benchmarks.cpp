@@ -1,14 +1,15 @@
-/// Micro-benchmarks of chapter 2: every test of its lists, on rays of which about one in eight hits; and the square roots.
-/// Run   ch02_benchmarks --benchmark_filter=triangle --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
-#include <benchmark/benchmark.h>
-
-#include <string>
-#include <vector>
-
+/// Micro-benchmarks of chapter 2: every test of its lists, on rays of which about one in eight
+/// hits; and the square roots. Run   ch02_benchmarks --benchmark_filter=triangle
+/// --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
 #include "chapters/ch02_intersection_tests/shape_tests.hpp"
 #include "chapters/ch02_intersection_tests/square_roots.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 #include "common/pcg32.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -18,7 +19,8 @@ using namespace space::ch02;
 constexpr std::size_t shapes = 512, rays_in_all = 64;
 
 Vector3 random_vector(Pcg32& random) {
-    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f), z = random.uniform(-1.0f, 1.0f);
+    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f),
+                z = random.uniform(-1.0f, 1.0f);
     return {x, y, z};
 }
 std::vector<Ray> random_rays() {
@@ -38,7 +40,8 @@ Shape random_shape(Pcg32& random) {
     if constexpr (std::is_same_v<Shape, Sphere>) return {p, random.uniform(0.2f, 0.8f)};
 }
 
-/// All shapes against all rays; what the test prepares of a ray is part of the time, what it prepares of a shape is not.
+/// All shapes against all rays; what the test prepares of a ray is part of the time, what it
+/// prepares of a shape is not.
 template <class Test, class Shape>
 void shapes_against_rays(benchmark::State& state) {
     const std::vector<Ray> rays = random_rays();
@@ -71,10 +74,13 @@ void roots(benchmark::State& state, const Root& root) {
 template <int Rounds>
 void register_roots() {
     benchmark::RegisterBenchmark(("root/Newton " + std::to_string(Rounds)).c_str(),
-                                 [](benchmark::State& state) { roots(state, [](float a) { return newton_root<Rounds>(a); }); });
-    benchmark::RegisterBenchmark(("root/reciprocal " + std::to_string(Rounds)).c_str(), [](benchmark::State& state) {
-        roots(state, [](float a) { return a * reciprocal_newton_root<Rounds>(a); });
-    });
+                                 [](benchmark::State& state) {
+                                     roots(state, [](float a) { return newton_root<Rounds>(a); });
+                                 });
+    benchmark::RegisterBenchmark(
+        ("root/reciprocal " + std::to_string(Rounds)).c_str(), [](benchmark::State& state) {
+            roots(state, [](float a) { return a * reciprocal_newton_root<Rounds>(a); });
+        });
 }
 
 const bool registered = [] {
@@ -83,7 +89,8 @@ const bool registered = [] {
                                      shapes_against_rays<TestOf<decltype(named)>, Triangle>);
     });
     for_each_named(box_tests, [](std::size_t, const auto& named) {
-        benchmark::RegisterBenchmark(("box/" + std::string(named.name)).c_str(), shapes_against_rays<TestOf<decltype(named)>, Aabb>);
+        benchmark::RegisterBenchmark(("box/" + std::string(named.name)).c_str(),
+                                     shapes_against_rays<TestOf<decltype(named)>, Aabb>);
     });
     for_each_named(sphere_tests, [](std::size_t, const auto& named) {
         benchmark::RegisterBenchmark(("sphere/" + std::string(named.name)).c_str(),
@@ -92,7 +99,9 @@ const bool registered = [] {
     register_roots<2>();
     register_roots<3>();
     register_roots<4>();
-    benchmark::RegisterBenchmark("root/std::sqrt", [](benchmark::State& state) { roots(state, [](float a) { return std::sqrt(a); }); });
+    benchmark::RegisterBenchmark("root/std::sqrt", [](benchmark::State& state) {
+        roots(state, [](float a) { return std::sqrt(a); });
+    });
     return true;
 }();
 

@@ -1,17 +1,20 @@
-#include <algorithm>
-#include <array>
+#include "chapters/ch02_intersection_tests/measured/measurements.hpp"
+#include "common/measure.hpp"
 
 #include <fmt/format.h>
 
-#include "chapters/ch02_intersection_tests/measured/measurements.hpp"
-#include "common/measure.hpp"
+#include <algorithm>
+#include <array>
 
 namespace space::ch02 {
 namespace {
 
-/// Zero has no place on a logarithmic axis: "none" is drawn here, below everything that was counted.
+/// Zero has no place on a logarithmic axis: "none" is drawn here, below everything that was
+/// counted.
 constexpr double none = 0.1;
-double on_log_axis(double per_million) { return std::max(per_million, none); }
+double on_log_axis(double per_million) {
+    return std::max(per_million, none);
+}
 
 double over_scenes(const std::vector<SceneTimes>& scenes, std::size_t test) {
     std::vector<double> ns;
@@ -28,7 +31,8 @@ Chart triangle_chart(const Measurements& measured) {
     for_each_named(triangle_tests, [&](std::size_t test, const auto& named) {
         leaks.x.push_back(over_scenes(measured.triangle_times, test));
         // Two tests without leaks stand one above the other, so that their names do not meet.
-        leaks.y.push_back(mesh.leaks[test] > 0 ? 1e6 * static_cast<double>(mesh.leaks[test]) / static_cast<double>(mesh.rays)
+        leaks.y.push_back(mesh.leaks[test] > 0 ? 1e6 * static_cast<double>(mesh.leaks[test]) /
+                                                     static_cast<double>(mesh.rays)
                           : without_leaks++ % 2 == 0 ? none
                                                      : 3.0 * none);
         // Lichter's two tests leak alike; only the improved one carries the name.
@@ -37,7 +41,9 @@ Chart triangle_chart(const Measurements& measured) {
                                                                      : named.name);
     });
     return {.id = "fig_02_11",
-            .title = "Nanoseconds per ray-triangle test against leaks through the edges and vertices of a closed mesh",
+            .title =
+                "Nanoseconds per ray-triangle test against leaks through the edges and vertices of "
+                "a closed mesh",
             .x_label = "ns per test (median of six inputs)",
             .y_label = "leaks per million rays; below 1: none",
             .log_x = true,
@@ -48,14 +54,17 @@ Chart triangle_chart(const Measurements& measured) {
 
 Chart root_chart(const Measurements& measured) {
     Chart chart{.id = "fig_02_12",
-                .title = "Nanoseconds per square root against the worst error, for 0 to 4 rounds of Newton's method",
+                .title =
+                    "Nanoseconds per square root against the worst error, for 0 to 4 rounds of "
+                    "Newton's method",
                 .x_label = "ns per root; labels: rounds of Newton's method",
                 .y_label = "worst error in units in the last place",
                 .log_x = true,
                 .log_y = true,
                 .kind = ChartKind::points,
                 .series = {}};
-    const auto add = [&](Series& series, const std::string& time_of, const std::string& error_of, const std::string& label) {
+    const auto add = [&](Series& series, const std::string& time_of, const std::string& error_of,
+                         const std::string& label) {
         for (const TimedRoot& timed : measured.root_times)
             for (const RootAccuracy& root : measured.roots)
                 if (timed.test == time_of && root.name == error_of) {
@@ -64,11 +73,13 @@ Chart root_chart(const Measurements& measured) {
                     series.labels.push_back(label);
                 }
     };
-    for (const auto& [name, time_of, error_of] : {std::array{"Newton", "Newton ", "Newton "}, {"four at once", "vector type ", "Newton "},
+    for (const auto& [name, time_of, error_of] : {std::array{"Newton", "Newton ", "Newton "},
+                                                  {"four at once", "vector type ", "Newton "},
                                                   {"reciprocal", "reciprocal ", "reciprocal "}}) {
         Series series{.name = name, .x = {}, .y = {}};
         for (int rounds = 0; rounds <= 4; ++rounds)
-            add(series, time_of + std::to_string(rounds), error_of + std::to_string(rounds), std::to_string(rounds));
+            add(series, time_of + std::to_string(rounds), error_of + std::to_string(rounds),
+                std::to_string(rounds));
         chart.series.push_back(series);
     }
     Series processor{.name = "processor", .x = {}, .y = {}};
@@ -86,12 +97,15 @@ Chart box_chart(const Measurements& measured) {
         for (const Wrong& wrong : measured.boxes.wrong)
             if (wrong.test == timed.test) {
                 missed.x.push_back(timed.ns);
-                missed.y.push_back(on_log_axis(1e6 * static_cast<double>(wrong.misses) / static_cast<double>(measured.boxes.exact_hits)));
+                missed.y.push_back(on_log_axis(1e6 * static_cast<double>(wrong.misses) /
+                                               static_cast<double>(measured.boxes.exact_hits)));
                 missed.labels.push_back(timed.test);
             }
     }
     return {.id = "fig_02_13",
-            .title = "Nanoseconds per ray-box test against boxes that are missed although they are hit, at corners, edges and faces",
+            .title =
+                "Nanoseconds per ray-box test against boxes that are missed although they are hit, "
+                "at corners, edges and faces",
             .x_label = "ns per test (hits that nobody can predict)",
             .y_label = "missed per million hits; 0.1 stands for none",
             .log_y = true,
@@ -100,16 +114,19 @@ Chart box_chart(const Measurements& measured) {
 }
 
 Chart sphere_chart(const Measurements& measured) {
-    Chart chart{.id = "fig_02_14",
-                .title = "Wrong decisions about a sphere of radius 1 against the distance of the ray's origin",
-                .x_label = "distance in radii",
-                .y_label = "wrong per million; 0.1 stands for none",
-                .log_x = true,
-                .log_y = true,
-                .series = {}};
+    Chart chart{
+        .id = "fig_02_14",
+        .title =
+            "Wrong decisions about a sphere of radius 1 against the distance of the ray's origin",
+        .x_label = "distance in radii",
+        .y_label = "wrong per million; 0.1 stands for none",
+        .log_x = true,
+        .log_y = true,
+        .series = {}};
     for (std::size_t test = 0; test < sphere_test_count; ++test) {
         const Timed& timed = measured.sphere_times[test];
-        Series series{.name = timed.test, .x = {}, .y = {}, .note = fmt::format("{:.1f} ns", timed.ns)};
+        Series series{
+            .name = timed.test, .x = {}, .y = {}, .note = fmt::format("{:.1f} ns", timed.ns)};
         for (const SphereAccuracy& sphere : measured.spheres) {
             series.x.push_back(sphere.distance);
             series.y.push_back(on_log_axis(sphere.wrong[test].per_million()));

@@ -1,6 +1,7 @@
 /// @file
-/// Does a ray hit a closed box, or a sphere's surface, in exact arithmetic on the float inputs? The truth that this
-/// chapter's tests are counted against; by expansions alone, since nobody waits for it.
+/// Does a ray hit a closed box, or a sphere's surface, in exact arithmetic on the float inputs? The
+/// truth that this chapter's tests are counted against; by expansions alone, since nobody waits for
+/// it.
 #pragma once
 
 #include "chapters/ch02_intersection_tests/boxes.hpp"
@@ -20,7 +21,8 @@ inline bool operator<(const ExactFraction& a, const ExactFraction& b) {
 
 /// The closed box and the closed interval have a common t.
 inline bool exactly_hits(const Ray& ray, const Aabb& box) {
-    if (!is_valid(ray) || ray.tmin == infinity || ray.tmax == -infinity || box.is_empty()) return false;
+    if (!is_valid(ray) || ray.tmin == infinity || ray.tmax == -infinity || box.is_empty())
+        return false;
     const auto number = [](float x) { return ExactFraction{difference(x, 0.0f), 1.0}; };
     // An infinite end bounds nothing.
     std::optional<ExactFraction> enter, leave;
@@ -53,7 +55,8 @@ struct ExactQuadratic {
 
     ExactQuadratic(const Ray& ray, const Sphere& sphere) {
         const Vector3& d = ray.direction;
-        const Expansion<2> fx = difference(ray.origin.x, sphere.center.x), fy = difference(ray.origin.y, sphere.center.y),
+        const Expansion<2> fx = difference(ray.origin.x, sphere.center.x),
+                           fy = difference(ray.origin.y, sphere.center.y),
                            fz = difference(ray.origin.z, sphere.center.z);
         const auto square = [](float x) {
             Expansion<1> one;
@@ -71,9 +74,11 @@ struct ExactQuadratic {
 inline bool exactly_hits_ahead(const ExactQuadratic& q) {
     return q.discriminant.sign() >= 0 && (q.c.sign() <= 0 || q.b.sign() <= 0);
 }
-/// The first t >= 0 of the surface, to within a few roundings of double; of two roots with a small one, that by C / q.
+/// The first t >= 0 of the surface, to within a few roundings of double; of two roots with a small
+/// one, that by C / q.
 inline double exact_first_t(const ExactQuadratic& q) {
-    const double a = q.a.value(), b = q.b.value(), c = q.c.value(), root = std::sqrt(std::max(0.0, q.discriminant.value()));
+    const double a = q.a.value(), b = q.b.value(), c = q.c.value(),
+                 root = std::sqrt(std::max(0.0, q.discriminant.value()));
     const double sum = -b - std::copysign(root, b);
     if (sum == 0.0) return 0.0;
     const double t0 = std::min(sum / a, c / sum), t1 = std::max(sum / a, c / sum);

@@ -8,7 +8,8 @@
 namespace space::ch02 {
 
 Vector3 random_vector(Pcg32& random) {
-    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f), z = random.uniform(-1.0f, 1.0f);
+    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f),
+                z = random.uniform(-1.0f, 1.0f);
     return {x, y, z};
 }
 
@@ -43,10 +44,13 @@ const std::vector<TriangleInput>& triangle_inputs() {
 }
 
 RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
-    Double3 corner[3] = {Double3(random_vector(random)), Double3(random_vector(random)), Double3(random_vector(random))};
+    Double3 corner[3] = {Double3(random_vector(random)), Double3(random_vector(random)),
+                         Double3(random_vector(random))};
     if (input.aim == Aim::uneven)
         for (Double3& p : corner) p *= std::pow(10.0, static_cast<int>(random.below(17)) - 8);
-    const auto point = [&](double u, double v) { return corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]); };
+    const auto point = [&](double u, double v) {
+        return corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]);
+    };
     const auto inside = [&] {
         const double u = random.uniform_double(), v = random.uniform_double();
         return u + v <= 1.0 ? point(u, v) : point(1.0 - u, 1.0 - v);
@@ -56,7 +60,8 @@ RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
     Double3 target, origin;
     switch (input.aim) {
         case Aim::around: {
-            const double u = 2.0 * random.uniform_double() - 0.5, v = 2.0 * random.uniform_double() - 0.5;
+            const double u = 2.0 * random.uniform_double() - 0.5,
+                         v = 2.0 * random.uniform_double() - 0.5;
             target = point(u, v);
             origin = target + distance * away;
             break;
@@ -64,7 +69,8 @@ RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
         case Aim::edge:
         case Aim::uneven: {
             const std::uint32_t side = random.below(3);
-            target = corner[side] + random.uniform_double() * (corner[(side + 1) % 3] - corner[side]);
+            target =
+                corner[side] + random.uniform_double() * (corner[(side + 1) % 3] - corner[side]);
             origin = target + distance * away;
             break;
         }
@@ -74,7 +80,8 @@ RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
             break;
         case Aim::grazing: {
             target = inside();
-            const Double3 n = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+            const Double3 n =
+                glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
             const Double3 along = glm::normalize(away - glm::dot(away, n) * n);
             origin = target + distance * (along + 1e-3 * (2.0 * random.uniform_double() - 1.0) * n);
             break;
@@ -88,37 +95,46 @@ RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
             origin = target + 1e4 * distance * away;
             break;
     }
-    const double stretch = random.below(2) ? 1.0 : 0.5 + random.uniform_double();  // 1: t = 1 at the target
+    const double stretch =
+        random.below(2) ? 1.0 : 0.5 + random.uniform_double();  // 1: t = 1 at the target
     const double scale = std::pow(10.0, input.scale);
-    const Double3 shift = input.shift == 0 ? Double3(0.0) : std::pow(10.0, input.shift) * Double3(1.0, 0.5, -0.25);
+    const Double3 shift =
+        input.shift == 0 ? Double3(0.0) : std::pow(10.0, input.shift) * Double3(1.0, 0.5, -0.25);
     const auto placed = [&](const Double3& p) { return Point3(scale * p + shift); };
     const Point3 from = placed(origin), to = placed(target);
     Vector3 direction(stretch * Double3(to - from));
     if (direction == Vector3(0.0f)) direction = Vector3(-away);  // rounded to the same point
-    return {{.origin = from, .direction = direction}, {placed(corner[0]), placed(corner[1]), placed(corner[2])}};
+    return {{.origin = from, .direction = direction},
+            {placed(corner[0]), placed(corner[1]), placed(corner[2])}};
 }
 
 TriangleMesh bumpy_ball(int levels) {
     using Face = std::array<std::uint32_t, 3>;
-    std::vector<Double3> corners{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    std::vector<Face> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    std::vector<Double3> corners{{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                 {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    std::vector<Face> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                            {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (; levels > 0; --levels) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;  // of edges; shared by both faces
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+            middles;  // of edges; shared by both faces
         const auto middle = [&](std::uint32_t i, std::uint32_t j) {
-            const auto [entry, is_new] = middles.try_emplace(std::minmax(i, j), static_cast<std::uint32_t>(corners.size()));
+            const auto [entry, is_new] =
+                middles.try_emplace(std::minmax(i, j), static_cast<std::uint32_t>(corners.size()));
             if (is_new) corners.push_back(glm::normalize(corners[i] + corners[j]));
             return entry->second;
         };
         std::vector<Face> finer;
         for (const auto& [a, b, c] : faces) {
             const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            for (const Face& part : {Face{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) finer.push_back(part);
+            for (const Face& part : {Face{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+                finer.push_back(part);
         }
         faces = std::move(finer);
     }
     TriangleMesh mesh{.vertices = {}, .faces = std::move(faces)};
     for (const Double3& p : corners)  // bumps by a polynomial: no transcendental functions
-        mesh.vertices.push_back(Point3(p * (0.9 + 0.8 * p.x * p.y * p.z + 0.15 * p.x + 0.2 * p.y * p.y)));
+        mesh.vertices.push_back(
+            Point3(p * (0.9 + 0.8 * p.x * p.y * p.z + 0.15 * p.x + 0.2 * p.y * p.y)));
     return mesh;
 }
 
@@ -131,7 +147,8 @@ std::vector<RayAndBox> lattice_boxes() {
         for (int d = 0; d < 64; ++d) {
             const Point3 origin(o % 5 - 1, o / 5 % 5 - 1, o / 25 - 1);
             const Vector3 direction(directions[d % 4], directions[d / 4 % 4], directions[d / 16]);
-            if (direction != Vector3(0.0f)) all.push_back({{origin, direction}, {Point3(0.0f), Point3(2.0f)}});
+            if (direction != Vector3(0.0f))
+                all.push_back({{origin, direction}, {Point3(0.0f), Point3(2.0f)}});
         }
     return all;
 }
@@ -152,7 +169,8 @@ RayAndBox make_box_pair(Pcg32& random) {
     if (parallel < 3) ray.origin[parallel] = static_cast<float>(target[parallel]);
     // Of any length: where the corner is at t = 1 exactly, a division cannot be wrong.
     ray.direction = Vector3((0.5 + random.uniform_double()) * Double3(Point3(target) - ray.origin));
-    if (parallel < 3 && random.below(2)) ray.direction[parallel] = -ray.direction[parallel];  // +0 or -0
+    if (parallel < 3 && random.below(2))
+        ray.direction[parallel] = -ray.direction[parallel];  // +0 or -0
     return {ray, box};
 }
 

@@ -8,19 +8,38 @@ namespace space::ch02 {
 
 Amounts amounts(const Options& options) {
     if (options.small)
-        return {.pairs = 4096, .leak_rays = 4096, .root_stride = 1021, .root_samples = 64, .boxes = 20'000, .spheres = 4096,
-                .bounces = 1000, .rounds = 1};
+        return {.pairs = 4096,
+                .leak_rays = 4096,
+                .root_stride = 1021,
+                .root_samples = 64,
+                .boxes = 20'000,
+                .spheres = 4096,
+                .bounces = 1000,
+                .rounds = 1};
     if (options.quick)
-        return {.pairs = 100'000, .leak_rays = 100'000, .root_stride = 17, .root_samples = 1000, .boxes = 1'000'000,
-                .spheres = 50'000, .bounces = 100'000, .rounds = 15};
-    return {.pairs = 1'000'000, .leak_rays = 1'000'000, .root_stride = 1, .root_samples = 20'000, .boxes = 10'000'000,
-            .spheres = 200'000, .bounces = 1'000'000, .rounds = 51};
+        return {.pairs = 100'000,
+                .leak_rays = 100'000,
+                .root_stride = 17,
+                .root_samples = 1000,
+                .boxes = 1'000'000,
+                .spheres = 50'000,
+                .bounces = 100'000,
+                .rounds = 15};
+    return {.pairs = 1'000'000,
+            .leak_rays = 1'000'000,
+            .root_stride = 1,
+            .root_samples = 20'000,
+            .boxes = 10'000'000,
+            .spheres = 200'000,
+            .bounces = 1'000'000,
+            .rounds = 51};
 }
 
 void count_triangles(const Options& options, Measurements& measured) {
     Progress progress("triangles: wrong decisions", triangle_inputs().size());
     for (const TriangleInput& input : triangle_inputs()) {
-        measured.triangles.push_back(triangle_accuracy(input, amounts(options).pairs, options.seed, options.threads));
+        measured.triangles.push_back(
+            triangle_accuracy(input, amounts(options).pairs, options.seed, options.threads));
         progress.step();
     }
 }
@@ -29,7 +48,8 @@ void count_leaks(const Options& options, Measurements& measured) {
     const std::vector<int> shifts{0, 3, 6};
     Progress progress("triangles: leaks", shifts.size());
     for (const int shift : shifts) {
-        measured.leaks.push_back(closed_mesh_leaks(3, shift, amounts(options).leak_rays, options.seed, options.threads));
+        measured.leaks.push_back(
+            closed_mesh_leaks(3, shift, amounts(options).leak_rays, options.seed, options.threads));
         progress.step();
     }
 }
@@ -37,7 +57,8 @@ void count_leaks(const Options& options, Measurements& measured) {
 void count_roots(const Options& options, Measurements& measured) {
     Progress progress("square roots", root_forms().size());
     for (const RootForm& form : root_forms()) {
-        measured.roots.push_back(root_accuracy(form, amounts(options).root_stride, amounts(options).root_samples));
+        measured.roots.push_back(
+            root_accuracy(form, amounts(options).root_stride, amounts(options).root_samples));
         progress.step();
     }
 }
@@ -51,7 +72,8 @@ void count_boxes(const Options& options, Measurements& measured) {
 
 void count_spheres(const Options& options, Measurements& measured) {
     for (const double distance : {3.0, 300.0, 3e3, 3e4, 3e6})
-        measured.spheres.push_back(sphere_accuracy(distance, amounts(options).spheres, options.seed, options.threads));
+        measured.spheres.push_back(
+            sphere_accuracy(distance, amounts(options).spheres, options.seed, options.threads));
     measured.behind = spheres_behind(amounts(options).spheres, options.seed);
 }
 
@@ -66,7 +88,8 @@ void count_bounces(const Options& options, Measurements& measured) {
         for (const OriginWay& way : origin_ways()) {
             measured.bounces.push_back(
                 {way.name, place,
-                 bounces(way, filtered_exact, place, amounts(options).bounces, options.seed, options.threads)});
+                 bounces(way, filtered_exact, place, amounts(options).bounces, options.seed,
+                         options.threads)});
             progress.step();
         }
 }
@@ -76,13 +99,14 @@ void time_triangles(const Options& options, Measurements& measured) {
     const int rounds = amounts(options).rounds;
     Progress progress("timing triangles", scenes.size() + 1);
     const auto time_leaves = [&](const Leaves& leaves) {
-        measured.triangle_times.push_back(
-            {leaves.scene, time_triangle_tests(leaves, rounds), time_lichter_tests(leaves, rounds)});
+        measured.triangle_times.push_back({leaves.scene, time_triangle_tests(leaves, rounds),
+                                           time_lichter_tests(leaves, rounds)});
         progress.step();
     };
     time_leaves(random_leaves(64, options.seed));
     for (const std::string& name : scenes) {
-        const Scene scene = make_scene(options.small ? name.substr(0, name.find(':')) : name, options.seed, options.small);
+        const Scene scene = make_scene(options.small ? name.substr(0, name.find(':')) : name,
+                                       options.seed, options.small);
         time_leaves(make_leaves(name, scene.mesh.triangles(), 64, options.seed));
     }
 }
@@ -90,7 +114,8 @@ void time_triangles(const Options& options, Measurements& measured) {
 void time_patterns(const Options& options, Measurements& measured) {
     const int rounds = amounts(options).rounds;
     for (const Pattern pattern : patterns)
-        measured.pattern_times.push_back({pattern, time_box_tests(pattern, rounds), time_orders(pattern, rounds)});
+        measured.pattern_times.push_back(
+            {pattern, time_box_tests(pattern, rounds), time_orders(pattern, rounds)});
 }
 
 void time_others(const Options& options, Measurements& measured) {
@@ -102,8 +127,8 @@ void time_others(const Options& options, Measurements& measured) {
 
 Measurements measure(const Options& options) {
     Measurements measured;
-    for (const auto part : {count_triangles, count_leaks, count_roots, count_boxes, count_spheres, count_bounces, time_triangles,
-                            time_patterns, time_others})
+    for (const auto part : {count_triangles, count_leaks, count_roots, count_boxes, count_spheres,
+                            count_bounces, time_triangles, time_patterns, time_others})
         part(options, measured);
     return measured;
 }

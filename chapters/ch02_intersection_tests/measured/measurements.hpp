@@ -1,14 +1,15 @@
 /// @file
-/// Everything that chapter 2 counts and times, in one value; its charts, and the answers to the sources' claims.
+/// Everything that chapter 2 counts and times, in one value; its charts, and the answers to the
+/// sources' claims.
 #pragma once
-
-#include <vector>
 
 #include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
 #include "chapters/ch02_intersection_tests/measured/timing.hpp"
 #include "common/program/chart.hpp"
 #include "common/program/options.hpp"
 #include "common/program/results.hpp"
+
+#include <vector>
 
 namespace space::ch02 {
 
@@ -63,8 +64,8 @@ struct Measurements {
     std::vector<Timed> sphere_times, plane_times;
 };
 
-/// The parts, each of which fills in its own members. Counts do not depend on the number of threads; times are taken on
-/// one.
+/// The parts, each of which fills in its own members. Counts do not depend on the number of
+/// threads; times are taken on one.
 void count_triangles(const Options& options, Measurements& measured);
 void count_leaks(const Options& options, Measurements& measured);
 void count_roots(const Options& options, Measurements& measured);
@@ -72,17 +73,20 @@ void count_boxes(const Options& options, Measurements& measured);
 void count_spheres(const Options& options, Measurements& measured);
 void count_bounces(const Options& options, Measurements& measured);
 void time_triangles(const Options& options, Measurements& measured);
-void time_patterns(const Options& options, Measurements& measured);  ///< boxes, and orders of a triangle test
-void time_others(const Options& options, Measurements& measured);    ///< roots, spheres, planes
+void time_patterns(const Options& options,
+                   Measurements& measured);  ///< boxes, and orders of a triangle test
+void time_others(const Options& options, Measurements& measured);  ///< roots, spheres, planes
 Measurements measure(const Options& options);
 
 /// A test's time as a multiple of MollerTrumboreFloat's on the same scene.
 double relative_time(const SceneTimes& scene, std::string_view test);
 
-Chart triangle_chart(const Measurements& measured);  ///< fig_02_11: ns per test against leaks and wrong decisions
-Chart root_chart(const Measurements& measured);      ///< fig_02_12: ns per root against the worst error
-Chart box_chart(const Measurements& measured);       ///< fig_02_13: ns per test against boxes missed
-Chart sphere_chart(const Measurements& measured);    ///< fig_02_14: wrong decisions against the distance, and ns
+Chart triangle_chart(
+    const Measurements& measured);  ///< fig_02_11: ns per test against leaks and wrong decisions
+Chart root_chart(const Measurements& measured);  ///< fig_02_12: ns per root against the worst error
+Chart box_chart(const Measurements& measured);   ///< fig_02_13: ns per test against boxes missed
+Chart sphere_chart(
+    const Measurements& measured);  ///< fig_02_14: wrong decisions against the distance, and ns
 
 /// The answers to L1 L2 L3 L4 L5 L8 L9 O4 O5 O12 O13 H15.
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);

@@ -6,7 +6,8 @@
 
 namespace space::ch02 {
 
-void print_triangles(const Measurements& measured);  ///< one row for each input, one column for each test
+void print_triangles(
+    const Measurements& measured);  ///< one row for each input, one column for each test
 void print_roots(const Measurements& measured);
 void print_boxes_and_spheres(const Measurements& measured);
 void print_bounces(const Measurements& measured);

@@ -1,16 +1,16 @@
 #include "chapters/ch02_intersection_tests/measured/timing.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <numeric>
-#include <stdexcept>
-
 #include "chapters/ch02_intersection_tests/branches.hpp"
 #include "chapters/ch02_intersection_tests/planes.hpp"
 #include "chapters/ch02_intersection_tests/shape_tests.hpp"
 #include "chapters/ch02_intersection_tests/square_roots.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 #include "common/measure.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
 
 namespace space::ch02 {
 namespace {
@@ -25,7 +25,8 @@ class Race {
     std::vector<Timed> times(double tests, int rounds) const {
         const std::vector<double> ms = interleaved_medians(runs_, rounds);
         std::vector<Timed> times;
-        for (std::size_t i = 0; i < ms.size(); ++i) times.push_back({names_[i], 1e6 * ms[i] / tests});
+        for (std::size_t i = 0; i < ms.size(); ++i)
+            times.push_back({names_[i], 1e6 * ms[i] / tests});
         return times;
     }
 
@@ -34,14 +35,16 @@ class Race {
     std::vector<std::function<void()>> runs_;
 };
 
-/// A loop over leaves, their rays and their triangles: hit(ray, triangle) is asked, its answers are summed up. noinline:
-/// each test gets a loop of its own, laid out alone.
+/// A loop over leaves, their rays and their triangles: hit(ray, triangle) is asked, its answers are
+/// summed up. noinline: each test gets a loop of its own, laid out alone.
 template <class Test>
 [[gnu::noinline]] float test_leaves(const Leaves& leaves, const auto& triangles) {
     float sum = 0.0f;
     for (std::size_t leaf = 0; leaf < leaves.count(); ++leaf) {
-        const std::span in_leaf = std::span(triangles).subspan(leaf * leaves.leaf_size, leaves.leaf_size);
-        for (const Ray& ray : std::span(leaves.rays).subspan(leaf * leaves.rays_per_leaf, leaves.rays_per_leaf)) {
+        const std::span in_leaf =
+            std::span(triangles).subspan(leaf * leaves.leaf_size, leaves.leaf_size);
+        for (const Ray& ray :
+             std::span(leaves.rays).subspan(leaf * leaves.rays_per_leaf, leaves.rays_per_leaf)) {
             const auto ready = prepared<Test>(ray);
             for (const auto& triangle : in_leaf)
                 if (const auto hit = Test::intersect(ready, triangle)) sum += hit->t;
@@ -55,8 +58,10 @@ template <class Test>
 [[gnu::noinline]] float nearest_in_leaves(const Leaves& leaves) {
     float sum = 0.0f;
     for (std::size_t leaf = 0; leaf < leaves.count(); ++leaf) {
-        const std::span in_leaf = std::span(leaves.triangles).subspan(leaf * leaves.leaf_size, leaves.leaf_size);
-        for (Ray ray : std::span(leaves.rays).subspan(leaf * leaves.rays_per_leaf, leaves.rays_per_leaf)) {
+        const std::span in_leaf =
+            std::span(leaves.triangles).subspan(leaf * leaves.leaf_size, leaves.leaf_size);
+        for (Ray ray :
+             std::span(leaves.rays).subspan(leaf * leaves.rays_per_leaf, leaves.rays_per_leaf)) {
             for (const Triangle& triangle : in_leaf)
                 if (const auto hit = Test::intersect(ray, triangle)) {
                     ray.tmax = hit->t;
@@ -85,8 +90,13 @@ double ns_of(const std::vector<Timed>& times, std::string_view test) {
 
 // --- triangles ---
 
-Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles, std::size_t leaves, std::uint64_t seed) {
-    Leaves result{.scene = scene, .leaf_size = std::min<std::size_t>(8, triangles.size()), .rays_per_leaf = 64, .triangles = {}, .rays = {}};
+Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles,
+                   std::size_t leaves, std::uint64_t seed) {
+    Leaves result{.scene = scene,
+                  .leaf_size = std::min<std::size_t>(8, triangles.size()),
+                  .rays_per_leaf = 64,
+                  .triangles = {},
+                  .rays = {}};
     Pcg32 random(seed);
     std::vector<Point3> middles;
     Aabb all;
@@ -103,7 +113,9 @@ Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles
             const float da = glm::dot(a, a), db = glm::dot(b, b);
             return da < db || (da == db && i < j);
         };
-        std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(result.leaf_size), order.end(), nearer_to_middle);
+        std::partial_sort(order.begin(),
+                          order.begin() + static_cast<std::ptrdiff_t>(result.leaf_size),
+                          order.end(), nearer_to_middle);
         Aabb box;
         for (std::size_t i = 0; i < result.leaf_size; ++i) {
             result.triangles.push_back(triangles[order[i]]);
@@ -114,20 +126,24 @@ Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles
             const Double3 share = 0.5 + 0.5 * Double3(random_vector(random));
             const Double3 target = Double3(box.min) + share * Double3(box.extent());
             const Double3 away = random_direction(random);
-            result.rays.push_back({.origin = Point3(target + reach * away), .direction = Vector3(-away)});
+            result.rays.push_back(
+                {.origin = Point3(target + reach * away), .direction = Vector3(-away)});
         }
     }
     return result;
 }
 
 Leaves random_leaves(std::size_t leaves, std::uint64_t seed) {
-    Leaves result{.scene = "random", .leaf_size = 8, .rays_per_leaf = 64, .triangles = {}, .rays = {}};
+    Leaves result{
+        .scene = "random", .leaf_size = 8, .rays_per_leaf = 64, .triangles = {}, .rays = {}};
     Pcg32 random(seed);
     for (std::size_t i = 0; i < leaves * result.leaf_size; ++i)
-        result.triangles.push_back({random_vector(random), random_vector(random), random_vector(random)});
+        result.triangles.push_back(
+            {random_vector(random), random_vector(random), random_vector(random)});
     for (std::size_t i = 0; i < leaves * result.rays_per_leaf; ++i) {
         const Double3 origin = 3.0 * random_direction(random);
-        result.rays.push_back({.origin = Point3(origin), .direction = Vector3(Double3(random_vector(random)) - origin)});
+        result.rays.push_back({.origin = Point3(origin),
+                               .direction = Vector3(Double3(random_vector(random)) - origin)});
     }
     return result;
 }
@@ -137,7 +153,9 @@ std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds) {
     for_each_named(triangle_tests, [&](std::size_t, const auto& named) {
         using Test = TestOf<decltype(named)>;
         race.add(std::string(named.name),
-                 [&leaves, ready = prepared_triangles<Test>(leaves.triangles)] { keep(test_leaves<Test>(leaves, ready)); });
+                 [&leaves, ready = prepared_triangles<Test>(leaves.triangles)] {
+                     keep(test_leaves<Test>(leaves, ready));
+                 });
     });
     return race.times(static_cast<double>(leaves.tests()), rounds);
 }
@@ -153,9 +171,12 @@ std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds) {
 
 std::string_view name(Pattern pattern) {
     switch (pattern) {
-        case Pattern::all_hit: return "all hit";
-        case Pattern::all_miss: return "all miss";
-        case Pattern::unpredictable: return "unpredictable";
+        case Pattern::all_hit:
+            return "all hit";
+        case Pattern::all_miss:
+            return "all miss";
+        case Pattern::unpredictable:
+            return "unpredictable";
     }
     return "";
 }
@@ -167,11 +188,13 @@ Leaves leaves_of(Pattern pattern) {
     Leaves leaves{.scene = "", .leaf_size = 8, .rays_per_leaf = 1, .triangles = {}, .rays = {}};
     Pcg32 random(1);
     for (int leaf = 0; leaf < 4096; ++leaf) {
-        const Double3 origin = 3.0 * random_direction(random), target = 0.5 * Double3(random_vector(random));
+        const Double3 origin = 3.0 * random_direction(random),
+                      target = 0.5 * Double3(random_vector(random));
         leaves.rays.push_back({.origin = Point3(origin), .direction = Vector3(target - origin)});
         for (std::size_t i = 0; i < leaves.leaf_size; ++i) {
             const Double3 ab(random_vector(random)), ac(random_vector(random));
-            const bool hits = pattern == Pattern::all_hit || (pattern == Pattern::unpredictable && random.below(2));
+            const bool hits = pattern == Pattern::all_hit ||
+                              (pattern == Pattern::unpredictable && random.below(2));
             double u, v;  // where the ray is to meet the triangle's plane
             do {
                 u = hits ? random.uniform_double() : 4.0 * random.uniform_double() - 1.5;
@@ -191,7 +214,8 @@ std::vector<Timed> time_orders(Pattern pattern, int rounds) {
     const Leaves leaves = leaves_of(pattern);
     Race race;
     race.add("cheap first", [&] { keep(test_leaves<CheapFirst>(leaves, leaves.triangles)); });
-    race.add("expensive first", [&] { keep(test_leaves<ExpensiveFirst>(leaves, leaves.triangles)); });
+    race.add("expensive first",
+             [&] { keep(test_leaves<ExpensiveFirst>(leaves, leaves.triangles)); });
     race.add("decide last", [&] { keep(test_leaves<DecideLast>(leaves, leaves.triangles)); });
     return race.times(static_cast<double>(leaves.tests()), rounds);
 }
@@ -200,7 +224,8 @@ std::vector<Timed> time_orders(Pattern pattern, int rounds) {
 
 namespace {
 
-/// Roots of 4096 numbers of many sizes, one after the other; each result is kept, so that no loop is vectorised.
+/// Roots of 4096 numbers of many sizes, one after the other; each result is kept, so that no loop
+/// is vectorised.
 template <class Root>
 [[gnu::noinline]] void root_loop(std::span<const float> numbers, const Root& root) {
     for (const float a : numbers) keep(root(a));
@@ -212,10 +237,14 @@ template <class Root>
 
 template <int Rounds>
 void add_newton_forms(Race& race, std::span<const float> numbers) {
-    const auto add = [&](const char* form, auto loop) { race.add(form + std::to_string(Rounds), loop); };
+    const auto add = [&](const char* form, auto loop) {
+        race.add(form + std::to_string(Rounds), loop);
+    };
     add("Newton ", [=] { root_loop(numbers, [](float a) { return newton_root<Rounds>(a); }); });
-    add("careful ", [=] { root_loop(numbers, [](float a) { return careful_newton_root<Rounds>(a); }); });
-    add("reciprocal ", [=] { root_loop(numbers, [](float a) { return a * reciprocal_newton_root<Rounds>(a); }); });
+    add("careful ",
+        [=] { root_loop(numbers, [](float a) { return careful_newton_root<Rounds>(a); }); });
+    add("reciprocal ",
+        [=] { root_loop(numbers, [](float a) { return a * reciprocal_newton_root<Rounds>(a); }); });
     add("four in an array ", [=] {
         root_loop_by_four(numbers, [](std::span<const float, 4> a) {
             float roots[4];
@@ -224,7 +253,9 @@ void add_newton_forms(Race& race, std::span<const float> numbers) {
         });
     });
     add("vector type ", [=] {
-        root_loop_by_four(numbers, [](std::span<const float, 4> a) { keep(newton_root<Rounds>(Float4{a[0], a[1], a[2], a[3]})); });
+        root_loop_by_four(numbers, [](std::span<const float, 4> a) {
+            keep(newton_root<Rounds>(Float4{a[0], a[1], a[2], a[3]}));
+        });
     });
     add("std::simd ", [=] {
         root_loop_by_four(numbers, [](std::span<const float, 4> a) {
@@ -250,15 +281,24 @@ std::vector<TimedRoot> time_roots(int rounds) {
     add_newton_forms<3>(race, numbers);
     add_newton_forms<4>(race, numbers);
 #if defined(__SSE__)
-    race.add("estimate 0", [&] { root_loop(numbers, [](float a) { return a * hardware_reciprocal_root<0>(a); }); });
-    race.add("estimate 1", [&] { root_loop(numbers, [](float a) { return a * hardware_reciprocal_root<1>(a); }); });
-    race.add("estimate 2", [&] { root_loop(numbers, [](float a) { return a * hardware_reciprocal_root<2>(a); }); });
+    race.add("estimate 0", [&] {
+        root_loop(numbers, [](float a) { return a * hardware_reciprocal_root<0>(a); });
+    });
+    race.add("estimate 1", [&] {
+        root_loop(numbers, [](float a) { return a * hardware_reciprocal_root<1>(a); });
+    });
+    race.add("estimate 2", [&] {
+        root_loop(numbers, [](float a) { return a * hardware_reciprocal_root<2>(a); });
+    });
     race.add("four by the processor", [&] {
-        root_loop_by_four(numbers, [](std::span<const float, 4> a) { keep(_mm_sqrt_ps(_mm_loadu_ps(a.data()))); });
+        root_loop_by_four(numbers, [](std::span<const float, 4> a) {
+            keep(_mm_sqrt_ps(_mm_loadu_ps(a.data())));
+        });
     });
 #endif
     race.add("std::sqrt", [&] { root_loop(numbers, [](float a) { return std::sqrt(a); }); });
-    float (*volatile sqrt_call)(float) = ::sqrtf;  // volatile: stays a call, as it is without optimisation
+    float (*volatile sqrt_call)(float) =
+        ::sqrtf;  // volatile: stays a call, as it is without optimisation
     race.add("sqrtf as a call", [&] { root_loop(numbers, sqrt_call); });
     std::vector<TimedRoot> times;
     for (const Timed& timed : race.times(static_cast<double>(numbers.size()), rounds)) {
@@ -274,7 +314,8 @@ namespace {
 
 /// All shapes against all rays: the number of hits.
 template <class Test, class Shape>
-[[gnu::noinline]] std::uint64_t test_all(const std::vector<Ray>& rays, const std::vector<Shape>& shapes) {
+[[gnu::noinline]] std::uint64_t test_all(const std::vector<Ray>& rays,
+                                         const std::vector<Shape>& shapes) {
     std::uint64_t hits = 0;
     for (const Ray& ray : rays) {
         const auto ready = prepared<Test>(ray);
@@ -303,7 +344,8 @@ std::vector<Timed> time_box_tests(Pattern pattern, int rounds) {
         Double3 away = random_direction(random);
         Double3 target = 0.05 * Double3(random_vector(random));
         if (pattern != Pattern::unpredictable) away = glm::abs(away);
-        if (pattern == Pattern::all_miss) {  // beside all boxes, and parallel to them but for a little
+        if (pattern ==
+            Pattern::all_miss) {  // beside all boxes, and parallel to them but for a little
             away = glm::normalize(Double3(0.01 * away.x, away.y, away.z));
             target = {5.0, 0.0, 0.0};
         }
@@ -314,7 +356,8 @@ std::vector<Timed> time_box_tests(Pattern pattern, int rounds) {
         for (Aabb& box : boxes) box = {box.min - 0.5f, box.max + 0.5f};
     Race race;
     for_each_named(box_tests, [&](std::size_t, const auto& named) {
-        race.add(std::string(named.name), [&] { keep(test_all<TestOf<decltype(named)>>(rays, boxes)); });
+        race.add(std::string(named.name),
+                 [&] { keep(test_all<TestOf<decltype(named)>>(rays, boxes)); });
     });
     return race.times(static_cast<double>(rays.size() * boxes.size()), rounds);
 }
@@ -323,7 +366,8 @@ std::vector<Timed> time_sphere_tests(int rounds) {
     Pcg32 random(1);
     std::vector<Ray> rays;
     std::vector<Sphere> spheres;
-    for (int i = 0; i < 512; ++i) spheres.push_back({0.5f * random_vector(random), random.uniform(0.2f, 0.8f)});
+    for (int i = 0; i < 512; ++i)
+        spheres.push_back({0.5f * random_vector(random), random.uniform(0.2f, 0.8f)});
     for (int i = 0; i < 64; ++i) {
         const Double3 away = random_direction(random);
         const Double3 target = 0.5 * Double3(random_vector(random));
@@ -331,7 +375,8 @@ std::vector<Timed> time_sphere_tests(int rounds) {
     }
     Race race;
     for_each_named(sphere_tests, [&](std::size_t, const auto& named) {
-        race.add(std::string(named.name), [&] { keep(test_all<TestOf<decltype(named)>>(rays, spheres)); });
+        race.add(std::string(named.name),
+                 [&] { keep(test_all<TestOf<decltype(named)>>(rays, spheres)); });
     });
     return race.times(static_cast<double>(rays.size() * spheres.size()), rounds);
 }
@@ -357,7 +402,9 @@ std::vector<Timed> time_planes(int rounds) {
         planes.push_back({Vector3(random_direction(random)), random.uniform(-1.0f, 1.0f)});
         axis_planes.push_back({static_cast<int>(random.below(3)), random.uniform(-1.0f, 1.0f)});
     }
-    for (int i = 0; i < 64; ++i) rays.push_back({.origin = random_vector(random), .direction = Vector3(random_direction(random))});
+    for (int i = 0; i < 64; ++i)
+        rays.push_back(
+            {.origin = random_vector(random), .direction = Vector3(random_direction(random))});
     Race race;
     race.add("general", [&] { meet_planes(rays, planes); });
     race.add("axis-aligned", [&] { meet_planes(rays, axis_planes); });

@@ -1,13 +1,13 @@
 /// @file
-/// What each test of this chapter costs: nanoseconds per test, medians of interleaved runs on one thread. To be read as
-/// ratios.
+/// What each test of this chapter costs: nanoseconds per test, medians of interleaved runs on one
+/// thread. To be read as ratios.
 #pragma once
+
+#include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 
 #include <span>
 #include <string>
 #include <vector>
-
-#include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 
 namespace space::ch02 {
 
@@ -24,7 +24,7 @@ double ns_of(const std::vector<Timed>& times, std::string_view test);
 /// Leaves of a tree, and rays that reach them: what a triangle test meets in all later chapters.
 struct Leaves {
     std::string scene;
-    std::size_t leaf_size = 0;         ///< triangles in each leaf
+    std::size_t leaf_size = 0;  ///< triangles in each leaf
     std::size_t rays_per_leaf = 0;
     std::vector<Triangle> triangles;  ///< leaf after leaf
     std::vector<Ray> rays;            ///< those of the first leaf, of the second ...
@@ -32,26 +32,29 @@ struct Leaves {
     std::size_t count() const { return triangles.size() / leaf_size; }
     std::size_t tests() const { return rays.size() * leaf_size; }
 };
-/// `leaves` of eight triangles each with neighbouring middles, and 64 rays for each leaf from random directions, aimed at
-/// random points of its box.
-Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles, std::size_t leaves, std::uint64_t seed);
+/// `leaves` of eight triangles each with neighbouring middles, and 64 rays for each leaf from
+/// random directions, aimed at random points of its box.
+Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles,
+                   std::size_t leaves, std::uint64_t seed);
 
-/// Eight large triangles in each leaf, anywhere in the cube [-1, 1]^3, and rays from anywhere around it.
+/// Eight large triangles in each leaf, anywhere in the cube [-1, 1]^3, and rays from anywhere
+/// around it.
 Leaves random_leaves(std::size_t leaves, std::uint64_t seed);
 
-/// Every test of triangle_tests, in its order. What a test prepares is prepared once per ray and leaf (Watertight), or
-/// once per triangle outside the measurement (UnitTriangle).
+/// Every test of triangle_tests, in its order. What a test prepares is prepared once per ray and
+/// leaf (Watertight), or once per triangle outside the measurement (UnitTriangle).
 std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds);
 
-/// Lichter23's two tests and the two between, in a loop over all the triangles of a leaf that keeps the nearest hit's t as
-/// tmax, as its naive ray tracer does.
+/// Lichter23's two tests and the two between, in a loop over all the triangles of a leaf that keeps
+/// the nearest hit's t as tmax, as its naive ray tracer does.
 std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds);
 
 /// How well a processor can guess what a test's branches do.
 enum class Pattern {
     all_hit,       ///< every test takes the same way, to its end
     all_miss,      ///< every test takes the same way, out at the first exit
-    unpredictable  ///< about half of the tests hit, and those that miss leave anywhere, in random order
+    unpredictable  ///< about half of the tests hit, and those that miss leave anywhere, in random
+                   ///< order
 };
 inline constexpr Pattern patterns[] = {Pattern::all_hit, Pattern::all_miss, Pattern::unpredictable};
 std::string_view name(Pattern pattern);
@@ -67,7 +70,8 @@ struct TimedRoot {
     int rounds;
     double ns;  ///< per root
 };
-/// Every form of root_forms() inlined into a loop, the vector forms four at a time, and the library's as a call.
+/// Every form of root_forms() inlined into a loop, the vector forms four at a time, and the
+/// library's as a call.
 std::vector<TimedRoot> time_roots(int rounds);
 
 // --- boxes, spheres, planes ---

@@ -6,8 +6,9 @@
 
 namespace space {
 
-/// The weights of b and c: |of_b| / |n| and |of_c| / |n|, where n is the cross product of two of the triangle's edges, and
-/// of_b and of_c are those of the parts of the triangle across from b and c. All three are parallel.
+/// The weights of b and c: |of_b| / |n| and |of_c| / |n|, where n is the cross product of two of
+/// the triangle's edges, and of_b and of_c are those of the parts of the triangle across from b and
+/// c. All three are parallel.
 struct Weights {
     float u, v;
 };

@@ -1,11 +1,12 @@
 /// @file
-/// Exercise 2.2, a near miss: std::fmin and std::fmax pass over what is not a number, and then both ends of the slab are the same infinity.
+/// Exercise 2.2, a near miss: std::fmin and std::fmax pass over what is not a number, and then both
+/// ends of the slab are the same infinity.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "common/geometry.hpp"
 
 namespace space {
 

@@ -2,10 +2,10 @@
 /// Exercise 2.4, a near miss: two rounds leave 5e-6, ten times too much.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <bit>
 #include <cstdint>
-
-#include "common/geometry.hpp"
 
 namespace space {
 

@@ -1,11 +1,12 @@
 /// @file
-/// Exercise 2.5, a near miss: one unit in the last place is too little for three roundings at either end.
+/// Exercise 2.5, a near miss: one unit in the last place is too little for three roundings at
+/// either end.
 #pragma once
+
+#include "common/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -14,8 +15,10 @@ inline bool may_hit_box(const Ray& ray, const Aabb& box) {
     float enter = ray.tmin, leave = ray.tmax;
     for (int axis = 0; axis < 3; ++axis) {
         const bool backwards = std::signbit(inverse[axis]);
-        const float near = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * inverse[axis];
-        const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * inverse[axis];
+        const float near =
+            ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * inverse[axis];
+        const float far =
+            ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * inverse[axis];
         enter = near > enter ? near : enter;
         leave = far * (1.0f + 0x1p-23f) < leave ? far * (1.0f + 0x1p-23f) : leave;
     }

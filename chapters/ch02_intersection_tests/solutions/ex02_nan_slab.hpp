@@ -2,10 +2,10 @@
 /// Exercise 2.2, solution.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "common/geometry.hpp"
 
 namespace space {
 
@@ -14,8 +14,10 @@ inline bool hits_box(const Ray& ray, const Aabb& box) {
     float enter = ray.tmin, leave = ray.tmax;
     for (int axis = 0; axis < 3; ++axis) {
         const bool backwards = std::signbit(inverse[axis]);
-        const float near = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * inverse[axis];
-        const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * inverse[axis];
+        const float near =
+            ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * inverse[axis];
+        const float far =
+            ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * inverse[axis];
         enter = near > enter ? near : enter;  // false for what is not a number: enter stays
         leave = far < leave ? far : leave;
     }

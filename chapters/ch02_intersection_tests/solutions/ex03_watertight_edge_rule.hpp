@@ -11,8 +11,8 @@ inline float edge(const Point2& p, const Point2& q, const Point2& r) {
     return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
 }
 
-/// Counter-clockwise, left edges run downwards and lower ones to the right. The neighbour sees the edge reversed: exactly
-/// one of the two says yes.
+/// Counter-clockwise, left edges run downwards and lower ones to the right. The neighbour sees the
+/// edge reversed: exactly one of the two says yes.
 inline bool keeps_its_points(const Point2& p, const Point2& q) {
     return q.y < p.y || (q.y == p.y && q.x > p.x);
 }

@@ -2,10 +2,10 @@
 /// Exercise 2.4, solution.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <bit>
 #include <cstdint>
-
-#include "common/geometry.hpp"
 
 namespace space {
 

@@ -2,15 +2,16 @@
 /// Exercise 2.5, solution.
 #pragma once
 
+#include "common/geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "common/geometry.hpp"
-
 namespace space {
 
-/// Difference, reciprocal and product are rounded, each by a factor of 1 +- u, u = 2^-24; so is the product with this
-/// factor. near is at most (1 + u)^3 times the exact one, far at least (1 - u)^4 (1 + 8 u) > (1 + u)^3 times.
+/// Difference, reciprocal and product are rounded, each by a factor of 1 +- u, u = 2^-24; so is the
+/// product with this factor. near is at most (1 + u)^3 times the exact one, far at least (1 - u)^4
+/// (1 + 8 u) > (1 + u)^3 times.
 inline constexpr float lengthen = 1.0f + 8.0f * 0x1p-24f;
 
 inline bool may_hit_box(const Ray& ray, const Aabb& box) {
@@ -18,8 +19,10 @@ inline bool may_hit_box(const Ray& ray, const Aabb& box) {
     float enter = ray.tmin, leave = ray.tmax;
     for (int axis = 0; axis < 3; ++axis) {
         const bool backwards = std::signbit(inverse[axis]);
-        const float near = ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * inverse[axis];
-        const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * inverse[axis];
+        const float near =
+            ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * inverse[axis];
+        const float far =
+            ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) * inverse[axis];
         enter = near > enter ? near : enter;
         const float beyond = far * lengthen;
         leave = beyond < leave ? beyond : leave;

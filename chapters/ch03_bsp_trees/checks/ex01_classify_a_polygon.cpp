@@ -1,9 +1,9 @@
 #include "ex01_classify_a_polygon.hpp"
 
+#include "tests/catch.hpp"
+
 #include <array>
 #include <vector>
-
-#include "tests/catch.hpp"
 
 namespace space {
 

@@ -1,5 +1,7 @@
 #include "ex02_split_a_polygon.hpp"
 
+#include "tests/catch.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 #include <set>
 #include <string>
 #include <tuple>
-
-#include "tests/catch.hpp"
 
 using namespace space;
 

@@ -1,14 +1,14 @@
 #include "ex03_choose_a_splitter.hpp"
 
+#include "common/pcg32.hpp"
+#include "common/scene.hpp"
+#include "tests/catch.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
-
-#include "common/pcg32.hpp"
-#include "common/scene.hpp"
-#include "tests/catch.hpp"
 
 using namespace space;
 

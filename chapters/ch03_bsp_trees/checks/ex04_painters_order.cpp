@@ -1,12 +1,12 @@
 #include "ex04_painters_order.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "common/pcg32.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
+
+#include <algorithm>
+#include <limits>
 
 using namespace space;
 

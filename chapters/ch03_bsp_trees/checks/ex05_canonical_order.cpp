@@ -1,13 +1,13 @@
 #include "ex05_canonical_order.hpp"
 
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
-
-#include "common/pcg32.hpp"
-#include "tests/catch.hpp"
 
 using namespace space;
 

@@ -9,9 +9,9 @@
 /// of a small set, in whole numbers, for which plane.distance(corner) is exact.
 #pragma once
 
-#include <span>
-
 #include "chapters/ch03_bsp_trees/fragment.hpp"
+
+#include <span>
 
 namespace space {
 

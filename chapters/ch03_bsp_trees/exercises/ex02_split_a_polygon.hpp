@@ -10,10 +10,10 @@
 /// the polygon's area.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
 #include <span>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 namespace space {
 

@@ -11,9 +11,9 @@
 /// many touch and coincide.
 #pragma once
 
-#include <span>
-
 #include "chapters/ch03_bsp_trees/fragment.hpp"
+
+#include <span>
 
 namespace space {
 

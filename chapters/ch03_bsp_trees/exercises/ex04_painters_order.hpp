@@ -16,10 +16,10 @@
 /// behind.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/bsp_tree.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/bsp_tree.hpp"
 
 namespace space {
 

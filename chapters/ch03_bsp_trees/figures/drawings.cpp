@@ -1,14 +1,14 @@
 #include "chapters/ch03_bsp_trees/figures/drawings.hpp"
 
+#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
-
 namespace space::ch03 {
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.1 The plane of A .. G
 
 void draw_heinonen_plane(const Options& options) {
@@ -65,7 +65,7 @@ void draw_heinonen_plane(const Options& options) {
     write_drawing(options.out, "fig_03_01", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.2 The tree of A .. G
 
 void draw_heinonen_tree(const Options& options) {

@@ -1,14 +1,14 @@
 // What a fragment's corner is, and what becomes of two neighbours' common edge.
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-
 #include "chapters/ch03_bsp_trees/figures/drawings.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 #include "common/pcg32.hpp"
 #include "common/program/report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
 
 namespace space::ch03 {
 namespace {
@@ -66,7 +66,7 @@ Neighbours random_neighbours(Pcg32& random) {
 
 }  // namespace
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.3 Corners, and cracks
 
 void draw_corners(const Options& options) {

@@ -1,16 +1,16 @@
 // What a BSP tree is used for: the painter's order and rays; and a body on which it fails.
 
+#include "chapters/ch03_bsp_trees/bsp.hpp"
+#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+#include "common/pcg32.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "chapters/ch03_bsp_trees/bsp.hpp"
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
-#include "common/pcg32.hpp"
 
 namespace space::ch03 {
 namespace {
@@ -24,7 +24,7 @@ std::size_t number(std::int32_t node) {
 
 }  // namespace
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.4 Painter's order
 
 void draw_painters_order(const Options& options) {
@@ -102,7 +102,7 @@ void draw_painters_order(const Options& options) {
     write_drawing(options.out, "fig_03_04", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.6 A convex body
 
 void draw_chain(const Options& options) {
@@ -161,7 +161,7 @@ void draw_chain(const Options& options) {
     write_drawing(options.out, "fig_03_06", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.7 A ray, front to back
 
 namespace {

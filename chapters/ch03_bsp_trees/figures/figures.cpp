@@ -30,6 +30,8 @@ constexpr Figure figures[] = {
 
 }  // namespace
 
-std::span<const Figure> chapter03_figures() { return figures; }
+std::span<const Figure> chapter03_figures() {
+    return figures;
+}
 
 }  // namespace space::ch03

@@ -2,9 +2,9 @@
 /// The figures of chapter 3: the chapter's own code draws them.
 #pragma once
 
-#include <span>
-
 #include "common/program/figure.hpp"
+
+#include <span>
 
 namespace space::ch03 {
 

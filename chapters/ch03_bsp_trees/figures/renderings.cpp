@@ -1,5 +1,14 @@
 // A closed mesh seen by rays that hit fragments in place of the triangles that those were cut from.
 
+#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+#include "chapters/ch03_bsp_trees/painter.hpp"
+#include "chapters/ch03_bsp_trees/tiling.hpp"
+#include "common/camera.hpp"
+#include "common/pcg32.hpp"
+#include "common/program/image.hpp"
+#include "common/scenes/shapes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,15 +16,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
-#include "chapters/ch03_bsp_trees/painter.hpp"
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
-#include "chapters/ch03_bsp_trees/tiling.hpp"
-#include "common/camera.hpp"
-#include "common/program/image.hpp"
-#include "common/pcg32.hpp"
-#include "common/scenes/shapes.hpp"
 
 namespace space::ch03 {
 namespace {
@@ -112,7 +112,7 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
 
 }  // namespace
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.5 Fragments in place of triangles
 
 void draw_fragments_hit(const Options& options) {
@@ -184,7 +184,7 @@ void draw_fragments_hit(const Options& options) {
     write_drawing(options.out, "fig_03_05", svg);
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // 3.9 A scene, painted
 
 namespace {

@@ -1,8 +1,8 @@
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 
-#include <algorithm>
-
 #include "common/program/file.hpp"
+
+#include <algorithm>
 
 namespace space::ch03 {
 

@@ -3,13 +3,13 @@
 /// cells, trees.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/figures/story.hpp"
+#include "common/program/svg.hpp"
+
 #include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/figures/story.hpp"
-#include "common/program/svg.hpp"
 
 namespace space::ch03 {
 

@@ -1,13 +1,13 @@
 // The build of a BSP tree, step by step: what the builder told its observer becomes the steps of a
 // drawing, through which a page leads its reader.
 
+#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 
 namespace space::ch03 {
 namespace {

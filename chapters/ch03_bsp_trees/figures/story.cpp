@@ -1,9 +1,9 @@
 #include "chapters/ch03_bsp_trees/figures/story.hpp"
 
+#include "common/scene.hpp"
+
 #include <algorithm>
 #include <utility>
-
-#include "common/scene.hpp"
 
 namespace space::ch03 {
 namespace {

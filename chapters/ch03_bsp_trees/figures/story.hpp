@@ -3,14 +3,14 @@
 /// and for the step-through page.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 
 namespace space::ch03 {
 

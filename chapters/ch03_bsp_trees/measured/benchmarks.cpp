@@ -1,10 +1,10 @@
-/// Micro-benchmarks of chapter 3: a polygon against a plane and a cut in each grade, a corner decided by
-/// the filter and without it, a ray against one plane and through a whole tree.
-/// Run   ch03_benchmarks --benchmark_filter=classify
-#include <benchmark/benchmark.h>
-
+/// Micro-benchmarks of chapter 3: a polygon against a plane and a cut in each grade, a corner
+/// decided by the filter and without it, a ray against one plane and through a whole tree. Run
+/// ch03_benchmarks --benchmark_filter=classify
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "common/scene.hpp"
+
+#include <benchmark/benchmark.h>
 
 namespace {
 
@@ -27,7 +27,8 @@ struct Soup {
     }
     Splitter<3> splitter(Grade grade) const {
         // A thickness as the builder's: eight roundings of coordinates up to 1.
-        return {polygons, planes, grade, 8.0 * (grade == Grade::ordered_double ? 0x1p-53 : 0x1p-24)};
+        return {polygons, planes, grade,
+                8.0 * (grade == Grade::ordered_double ? 0x1p-53 : 0x1p-24)};
     }
 };
 const Soup& soup() {
@@ -75,7 +76,8 @@ void split(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Cut& cut = cuts[i++ % cuts.size()];
-        benchmark::DoNotOptimize(splitter.split(soup().fragments[cut.fragment], cut.sides, cut.plane));
+        benchmark::DoNotOptimize(
+            splitter.split(soup().fragments[cut.fragment], cut.sides, cut.plane));
     }
     state.SetLabel(grade_names[std::size_t(state.range(0))].first);
 }

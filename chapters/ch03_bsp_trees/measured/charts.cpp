@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "common/program/report.hpp"
+
+#include <fmt/format.h>
 
 namespace space::ch03 {
 namespace {
@@ -26,41 +26,50 @@ constexpr double none = 0.1;
 }  // namespace
 
 Chart fragments_chart(const std::vector<Growth>& growth) {
-    Chart chart{.id = "fig_03_11",
-                .title = "Fragments against the number of polygons, by scene and choice of splitters",
-                .x_label = "polygons",
-                .y_label = "fragments per polygon",
-                .log_x = true,
-                .log_y = true,
-                .series = {}};
+    Chart chart{
+        .id = "fig_03_11",
+        .title = "Fragments against the number of polygons, by scene and choice of splitters",
+        .x_label = "polygons",
+        .y_label = "fragments per polygon",
+        .log_x = true,
+        .log_y = true,
+        .series = {}};
     const auto per_polygon = [](const TreePoint& p) { return p.per_polygon(); };
-    for (const auto& [scene, method] :
-         {std::pair{"big triangles", "first"}, {"big triangles", "weighted"}, {"soup", "first"},
-          {"soup", "weighted"}, {"teapot", "first"}, {"teapot", "weighted"}})
+    for (const auto& [scene, method] : {std::pair{"big triangles", "first"},
+                                        {"big triangles", "weighted"},
+                                        {"soup", "first"},
+                                        {"soup", "weighted"},
+                                        {"teapot", "first"},
+                                        {"teapot", "weighted"}})
         chart.series.push_back(line(growth, scene, method, per_polygon));
     return chart;
 }
 
 Chart build_chart(const std::vector<Growth>& growth) {
-    Chart chart{.id = "fig_03_12",
-                .title = "Build time against the number of polygons, by scene and choice of splitters",
-                .x_label = "polygons",
-                .y_label = "build time in ms",
-                .log_x = true,
-                .log_y = true,
-                .series = {}};
+    Chart chart{
+        .id = "fig_03_12",
+        .title = "Build time against the number of polygons, by scene and choice of splitters",
+        .x_label = "polygons",
+        .y_label = "build time in ms",
+        .log_x = true,
+        .log_y = true,
+        .series = {}};
     const auto build = [](const TreePoint& p) { return p.build_ms; };
-    for (const auto& [scene, method] :
-         {std::pair{"big triangles", "weighted"}, {"icosphere", "weighted"}, {"icosphere", "free"},
-          {"soup", "weighted"}, {"teapot", "weighted"}, {"teapot", "first"}})
+    for (const auto& [scene, method] : {std::pair{"big triangles", "weighted"},
+                                        {"icosphere", "weighted"},
+                                        {"icosphere", "free"},
+                                        {"soup", "weighted"},
+                                        {"teapot", "weighted"},
+                                        {"teapot", "first"}})
         chart.series.push_back(line(growth, scene, method, build));
     return chart;
 }
 
 Chart grades_chart(const std::vector<GradePoint>& grades) {
     Chart chart{.id = "fig_03_13",
-                .title = "Four grades of care: build time against rays that slip between fragments; "
-                         "labels: the worst polygon's relative area error, and cracks",
+                .title =
+                    "Four grades of care: build time against rays that slip between fragments; "
+                    "labels: the worst polygon's relative area error, and cracks",
                 .x_label = "build time, thick float = 1; labels: worst area error, cracks",
                 .y_label = "slipped per million rays; below 1: none",
                 .log_y = true,
@@ -86,16 +95,18 @@ Chart grades_chart(const std::vector<GradePoint>& grades) {
 }
 
 Chart rays_chart(const std::vector<Growth>& growth) {
-    Chart chart{.id = "fig_03_14",
-                .title = "Nodes and tests per ray against the number of polygons, beside naive tracing",
-                .x_label = "polygons",
-                .y_label = "per ray",
-                .log_x = true,
-                .log_y = true,
-                .series = {}};
+    Chart chart{
+        .id = "fig_03_14",
+        .title = "Nodes and tests per ray against the number of polygons, beside naive tracing",
+        .x_label = "polygons",
+        .y_label = "per ray",
+        .log_x = true,
+        .log_y = true,
+        .series = {}};
     const auto nodes = [](const TreePoint& p) { return p.nodes_per_ray(); };
     const auto tests = [](const TreePoint& p) { return p.tests_per_ray(); };
-    const auto add = [&](const char* name, const char* scene, const char* method, const auto& value) {
+    const auto add = [&](const char* name, const char* scene, const char* method,
+                         const auto& value) {
         chart.series.push_back(line(growth, scene, method, value));
         chart.series.back().name = name;
     };

@@ -1,11 +1,11 @@
-#include <algorithm>
-#include <cmath>
+#include "chapters/ch03_bsp_trees/measured/measurements.hpp"
+#include "common/program/report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "chapters/ch03_bsp_trees/measured/measurements.hpp"
-#include "common/program/report.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace space::ch03 {
 namespace {
@@ -61,8 +61,8 @@ Bounded bounded(const std::vector<Growth>& growth, const Value& value, const Bou
         const bool one = scene.methods.size() == 1;
         result.beyond.push_back(
             fmt::format("{}{}: {:+.2f}{}", scene.name,
-                        all ? "" : fmt::format(" by {}", fmt::join(scene.methods, ", ")), scene.least,
-                        one ? "" : fmt::format(" to {:+.2f}", scene.most)));
+                        all ? "" : fmt::format(" by {}", fmt::join(scene.methods, ", ")),
+                        scene.least, one ? "" : fmt::format(" to {:+.2f}", scene.most)));
     }
     return result;
 }
@@ -82,33 +82,39 @@ std::string scenes_text(const std::vector<Growth>& growth) {
         least = std::min(least, g.points.front().polygons);
         most = std::max(most, g.points.back().polygons);
     }
-    return fmt::format("{}; {} to {} polygons", joined(names), with_commas(least), with_commas(most));
+    return fmt::format("{}; {} to {} polygons", joined(names), with_commas(least),
+                       with_commas(most));
 }
 
 /// The least depth that a binary tree of so many nodes can have.
-double least_depth(const TreePoint& p) { return std::floor(std::log2(double(p.nodes))); }
+double least_depth(const TreePoint& p) {
+    return std::floor(std::log2(double(p.nodes)));
+}
 
 ClaimAnswer answer_depth(const std::vector<Growth>& growth) {
     const std::vector<Growth> balanced = by_method(growth, "balanced");
     const auto log = [](double n) { return std::log2(n); };
-    const Bounded grows =
-        bounded(balanced, [](const TreePoint& p) { return double(p.depth); }, log);
+    const Bounded grows = bounded(
+        balanced, [](const TreePoint& p) { return double(p.depth); }, log);
     std::vector<std::string> depths;
     bool lower_bound = true;
     for (const Growth& g : balanced) {
         const TreePoint& last = g.points.back();
-        depths.push_back(fmt::format("{} {} (log2 n {:.1f}, log2 nodes {:.1f})", g.scene, last.depth,
-                                     std::log2(double(last.polygons)), std::log2(double(last.nodes))));
-        for (const TreePoint& p : g.points) lower_bound = lower_bound && double(p.depth) >= least_depth(p);
+        depths.push_back(fmt::format("{} {} (log2 n {:.1f}, log2 nodes {:.1f})", g.scene,
+                                     last.depth, std::log2(double(last.polygons)),
+                                     std::log2(double(last.nodes))));
+        for (const TreePoint& p : g.points)
+            lower_bound = lower_bound && double(p.depth) >= least_depth(p);
     }
     const Verdict verdict = lower_bound ? over(grows.within, grows.series) : Verdict::refuted;
-    return {"H4", verdict,
-            fmt::format("depth by the most balanced of {} candidates, at the largest size: {}; depth / "
-                        "log n does not grow in {}; no tree is shallower than log2 of its nodes",
-                        BspConfig{}.candidates, joined(depths), grows.text()),
-            scenes_text(balanced),
-            "confirmed if depth / log n has a log-log slope of at most 0.1 on every scene and no depth "
-            "is below log2 of the nodes; refuted if on none"};
+    return {
+        "H4", verdict,
+        fmt::format("depth by the most balanced of {} candidates, at the largest size: {}; depth / "
+                    "log n does not grow in {}; no tree is shallower than log2 of its nodes",
+                    BspConfig{}.candidates, joined(depths), grows.text()),
+        scenes_text(balanced),
+        "confirmed if depth / log n has a log-log slope of at most 0.1 on every scene and no depth "
+        "is below log2 of the nodes; refuted if on none"};
 }
 
 ClaimAnswer answer_chain(const std::vector<Growth>& growth) {
@@ -130,7 +136,8 @@ ClaimAnswer answer_chain(const std::vector<Growth>& growth) {
     }
     return {"H5", chains ? Verdict::confirmed : Verdict::refuted,
             fmt::format("{}", fmt::join(scenes, ". ")),
-            "a stack of parallel triangles, listed from back to front; a geodesic sphere, on which every "
+            "a stack of parallel triangles, listed from back to front; a geodesic sphere, on which "
+            "every "
             "polygon's plane has all others behind it",
             "confirmed if some choice of splitters gives depth n - 1"};
 }
@@ -152,13 +159,16 @@ ClaimAnswer answer_pieces(const Measurements& measured) {
         names.push_back(split.scene);
         texts.push_back(fmt::format("{} {:.2f} and {:.2f} (up to {} and {})", split.scene,
                                     split.per_polygon(), shared->per_polygon(),
-                                    with_commas(split.most_pieces), with_commas(shared->most_pieces)));
+                                    with_commas(split.most_pieces),
+                                    with_commas(shared->most_pieces)));
     }
     return {"H6", over(increased, scenes),
-            fmt::format("fragments per polygon where polygons are split, and subtrees per polygon where "
-                        "they are shared (most of one polygon): {}",
-                        joined(texts)),
-            joined(names), "confirmed if both numbers are above 1 on every scene, refuted if on none"};
+            fmt::format(
+                "fragments per polygon where polygons are split, and subtrees per polygon where "
+                "they are shared (most of one polygon): {}",
+                joined(texts)),
+            joined(names),
+            "confirmed if both numbers are above 1 on every scene, refuted if on none"};
 }
 
 ClaimAnswer answer_crossings(const Measurements& measured) {
@@ -179,14 +189,15 @@ ClaimAnswer answer_crossings(const Measurements& measured) {
     for (const Growth& g : measured.growth)
         for (const TreePoint& p : g.points) rays += p.rays, wrong += p.wrong;
     return {"H7", sum.contradicted == 0 && wrong == 0 ? Verdict::confirmed : Verdict::refuted,
-            fmt::format("{} rays visit {} nodes and cross the plane, within the node's cell, in {} of "
-                        "them ({:.0f} %); both subtrees are there in {} ({:.0f} %). In {} of these the ray "
-                        "stays on one side of the plane; {} run along it. Looking at one subtree "
-                        "elsewhere changes the answers of {} of {} rays",
-                        with_commas(sum.rays), with_commas(sum.visits), with_commas(sum.crossed),
-                        100.0 * double(sum.crossed) / double(sum.visits), with_commas(sum.both),
-                        100.0 * double(sum.both) / double(sum.visits), sum.contradicted,
-                        with_commas(sum.undecided), wrong, with_commas(rays)),
+            fmt::format(
+                "{} rays visit {} nodes and cross the plane, within the node's cell, in {} of "
+                "them ({:.0f} %); both subtrees are there in {} ({:.0f} %). In {} of these the ray "
+                "stays on one side of the plane; {} run along it. Looking at one subtree "
+                "elsewhere changes the answers of {} of {} rays",
+                with_commas(sum.rays), with_commas(sum.visits), with_commas(sum.crossed),
+                100.0 * double(sum.crossed) / double(sum.visits), with_commas(sum.both),
+                100.0 * double(sum.both) / double(sum.visits), sum.contradicted,
+                with_commas(sum.undecided), wrong, with_commas(rays)),
             joined(names),
             "confirmed if no ray that stays on one side needs both subtrees, and no answer differs "
             "from the naive loop's where one subtree alone was looked at"};
@@ -196,20 +207,23 @@ ClaimAnswer answer_bounds(const std::vector<Growth>& growth) {
     const auto n_log_n = [](double n) { return n * std::log2(n); };
     const auto n2_log_n = [](double n) { return n * n * std::log2(n); };
     const auto log_n = [](double n) { return std::log2(n); };
-    const Bounded size =
-        bounded(growth, [](const TreePoint& p) { return double(p.fragments); }, n_log_n);
-    const Bounded build = bounded(growth, [](const TreePoint& p) { return double(p.placed); }, n2_log_n);
-    const Bounded search =
-        bounded(growth, [](const TreePoint& p) { return p.nodes_per_ray(); }, log_n);
-    return {"P3",
-            over(size.within + build.within + search.within, size.series + build.series + search.series),
-            fmt::format("size O(n log n) holds in {}; build O(n^2 log n), in fragments placed, in {}; "
-                        "search O(log n), in nodes per ray, in {}",
-                        size.text(), build.text(), search.text()),
-            scenes_text(growth),
-            "a bound holds where the quotient of value and bound has a log-log slope over n of at most "
-            "0.1; confirmed if all three hold in every series of a scene and a choice of splitters, "
-            "refuted if in none"};
+    const Bounded size = bounded(
+        growth, [](const TreePoint& p) { return double(p.fragments); }, n_log_n);
+    const Bounded build = bounded(
+        growth, [](const TreePoint& p) { return double(p.placed); }, n2_log_n);
+    const Bounded search = bounded(
+        growth, [](const TreePoint& p) { return p.nodes_per_ray(); }, log_n);
+    return {
+        "P3",
+        over(size.within + build.within + search.within,
+             size.series + build.series + search.series),
+        fmt::format("size O(n log n) holds in {}; build O(n^2 log n), in fragments placed, in {}; "
+                    "search O(log n), in nodes per ray, in {}",
+                    size.text(), build.text(), search.text()),
+        scenes_text(growth),
+        "a bound holds where the quotient of value and bound has a log-log slope over n of at most "
+        "0.1; confirmed if all three hold in every series of a scene and a choice of splitters, "
+        "refuted if in none"};
 }
 
 }  // namespace

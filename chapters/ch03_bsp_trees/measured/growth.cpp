@@ -1,14 +1,14 @@
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
-#include <fmt/format.h>
-
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/report.hpp"
 #include "common/scene.hpp"
 #include "common/scenes/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace space::ch03 {
 namespace {
@@ -55,7 +55,8 @@ const std::vector<GrowingScene>& growing_scenes() {
         {"soup", {100, 316, 1'000, 3'162, 10'000, 31'623, 100'000}, named<soup>},
         {"big triangles", {50, 100, 200, 400, 800}, big_triangles},
         {"boxes", {8, 26, 83, 263, 832, 2'635, 8'332}, named<boxes>},
-        {"teapot", {1, 2, 3, 6, 11, 19, 34},
+        {"teapot",
+         {1, 2, 3, 6, 11, 19, 34},
          [](std::uint32_t detail, std::uint64_t) { return teapot(detail).triangles(); }},
         {"icosphere", {2, 4, 7, 13, 22, 40, 71}, named<icosphere_scene>},
         {"stack", {100, 316, 1'000, 3'162, 10'000, 31'623, 100'000}, stack},
@@ -65,8 +66,8 @@ const std::vector<GrowingScene>& growing_scenes() {
 
 /// How many polygons are held against planes: once where they are placed, and for each candidate.
 std::uint64_t classified(const Method& method, std::uint64_t placed) {
-    const bool tries = method.splitter != SplitterChoice::first &&
-                       method.splitter != SplitterChoice::random;
+    const bool tries =
+        method.splitter != SplitterChoice::first && method.splitter != SplitterChoice::random;
     return placed * (tries ? 1 + BspConfig{}.candidates : 1);
 }
 
@@ -96,13 +97,15 @@ void grow(Growth& growth, const Method& method, const TreeTask& task, const Amou
     try {
         growth.points.push_back(measure_tree(task, method, limits.max_fragments));
     } catch (const Error&) {
-        growth.stopped = fmt::format("{} have more than {} fragments",
-                                     with_commas(task.triangles.size()),
-                                     with_commas(limits.max_fragments));
+        growth.stopped =
+            fmt::format("{} have more than {} fragments", with_commas(task.triangles.size()),
+                        with_commas(limits.max_fragments));
     }
 }
 
-constexpr bool grows(const Method& method) { return method.straddlers == Straddlers::split; }
+constexpr bool grows(const Method& method) {
+    return method.straddlers == Straddlers::split;
+}
 
 }  // namespace
 
@@ -113,10 +116,12 @@ std::vector<Growth> measure_growth(const Options& options) {
     for (const GrowingScene& scene : growing_scenes()) {
         const std::size_t first = all.size(), sizes = std::min(limits.sizes, scene.sizes.size());
         for (const Method& method : methods)
-            if (grows(method)) all.push_back({.scene = scene.name, .method = std::string(method.name)});
+            if (grows(method))
+                all.push_back({.scene = scene.name, .method = std::string(method.name)});
         for (std::size_t i = 0; i < limits.sizes; ++i) {
             const auto stopped = [](const Growth& growth) { return !growth.stopped.empty(); };
-            const bool ended = i >= sizes || std::all_of(&all[first], all.data() + all.size(), stopped);
+            const bool ended =
+                i >= sizes || std::all_of(&all[first], all.data() + all.size(), stopped);
             if (ended) {
                 progress.step(methods.size() - 1);
                 continue;

@@ -1,15 +1,15 @@
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include <fmt/format.h>
-
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/parallel.hpp"
 #include "common/program/progress.hpp"
 #include "common/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
 
 namespace space::ch03 {
 namespace {
@@ -33,13 +33,25 @@ Point3 in_cube(Pcg32& random) {
 
 Amounts amounts(const Options& options) {
     if (options.small)
-        return {.sizes = 3, .max_classified = 2'000'000, .max_fragments = 20'000, .rays = 100,
-                .edge_rays = 2'000, .rounds = 1};
+        return {.sizes = 3,
+                .max_classified = 2'000'000,
+                .max_fragments = 20'000,
+                .rays = 100,
+                .edge_rays = 2'000,
+                .rounds = 1};
     if (options.quick)
-        return {.sizes = 5, .max_classified = 20'000'000, .max_fragments = 100'000, .rays = 300,
-                .edge_rays = 20'000, .rounds = 3};
-    return {.sizes = 7, .max_classified = 500'000'000, .max_fragments = 1'500'000, .rays = 1'000,
-            .edge_rays = 1'000'000, .rounds = 5};
+        return {.sizes = 5,
+                .max_classified = 20'000'000,
+                .max_fragments = 100'000,
+                .rays = 300,
+                .edge_rays = 20'000,
+                .rounds = 3};
+    return {.sizes = 7,
+            .max_classified = 500'000'000,
+            .max_fragments = 1'500'000,
+            .rays = 1'000,
+            .edge_rays = 1'000'000,
+            .rounds = 5};
 }
 
 std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
@@ -61,7 +73,8 @@ std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size
 }
 
 TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& options)
-    : scene(std::move(name)), triangles(std::move(all)),
+    : scene(std::move(name)),
+      triangles(std::move(all)),
       rays(rays_from_around(triangles, amounts(options).rays, options.seed)) {
     const Naive<> naive = Naive<>::build(triangles);
     truth.resize(rays.size());
@@ -71,8 +84,10 @@ TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& o
 
 TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments,
                        std::uint64_t max_placed) {
-    const BspConfig config{.splitter = method.splitter, .straddlers = method.straddlers,
-                           .max_fragments = max_fragments, .max_placed = max_placed};
+    const BspConfig config{.splitter = method.splitter,
+                           .straddlers = method.straddlers,
+                           .max_fragments = max_fragments,
+                           .max_placed = max_placed};
     PlacedCounter counter;
     Stopwatch stopwatch;
     const auto bsp = Bsp<>::build(task.triangles, config, counter);
@@ -97,16 +112,18 @@ TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t m
     return point;
 }
 
-// ------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // Scenes of one size
 
 MethodTrees measure_methods(const std::string& scene, const Options& options) {
-    const TreeTask task(scene, make_scene(scene, options.seed, options.small).mesh.triangles(), options);
+    const TreeTask task(scene, make_scene(scene, options.seed, options.small).mesh.triangles(),
+                        options);
     MethodTrees result{.scene = scene};
     Progress progress("trees of " + scene, methods.size());
     for (const Method& method : methods) {
         try {
-            result.trees.push_back(measure_tree(task, method, max_scene_fragments, max_scene_placed));
+            result.trees.push_back(
+                measure_tree(task, method, max_scene_fragments, max_scene_placed));
         } catch (const Error& error) {
             result.given_up.push_back(fmt::format("{}: {}", method.name, error.what()));
         }
@@ -139,7 +156,7 @@ std::vector<TreePoint> measure_scenes(const Options& options) {
     return points;
 }
 
-// ------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // Rays across planes
 
 namespace {
@@ -181,7 +198,7 @@ std::vector<Crossings> measure_crossings(const Options& options) {
     return all;
 }
 
-// ------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 // The four grades
 
 std::vector<GradePoint> measure_grades(const Options& options) {
@@ -211,7 +228,9 @@ std::vector<GradePoint> measure_grades(const Options& options) {
         for (std::size_t i = 0; i < grade_names.size(); ++i) {
             const auto [grade_name, grade] = grade_names[i];
             const FragmentRays rays(trees[i], grade);
-            points.push_back({.scene = name, .grade = grade_name, .nodes = trees[i].nodes.size(),
+            points.push_back({.scene = name,
+                              .grade = grade_name,
+                              .nodes = trees[i].nodes.size(),
                               .fragments = trees[i].fragments.size(),
                               .tiling = measure_tiling(trees[i], grade),
                               .old_edges = rays.at_old_edges(limits.edge_rays, options.seed),
@@ -233,8 +252,8 @@ std::uint64_t wrong_answers(const Measurements& measured) {
     for (const Crossings& crossings : measured.crossings) wrong += crossings.contradicted;
     for (const GradePoint& point : measured.grades)
         if (point.grade == "exact")
-            wrong += (point.tiling.area_error != 0.0) + point.tiling.cracks + point.old_edges.slipped +
-                     point.cuts.slipped;
+            wrong += (point.tiling.area_error != 0.0) + point.tiling.cracks +
+                     point.old_edges.slipped + point.cuts.slipped;
     return wrong;
 }
 

@@ -3,19 +3,19 @@
 /// exactly fragments tile their polygons.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/bsp.hpp"
+#include "chapters/ch03_bsp_trees/tiling.hpp"
+#include "common/measure.hpp"
+#include "common/program/chart.hpp"
+#include "common/program/options.hpp"
+#include "common/program/results.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/bsp.hpp"
-#include "chapters/ch03_bsp_trees/tiling.hpp"
-#include "common/program/chart.hpp"
-#include "common/measure.hpp"
-#include "common/program/options.hpp"
-#include "common/program/results.hpp"
 
 namespace space::ch03 {
 
@@ -40,11 +40,11 @@ inline constexpr std::array grade_names{
 
 /// How much is measured: for tests (--small), for a look (--quick), for the book.
 struct Amounts {
-    std::size_t sizes;                ///< of each growing scene
-    std::uint64_t max_classified;     ///< polygons against planes, in one build
+    std::size_t sizes;             ///< of each growing scene
+    std::uint64_t max_classified;  ///< polygons against planes, in one build
     std::size_t max_fragments;
-    std::size_t rays, edge_rays;      ///< through each tree; at edges and at cuts of a closed mesh
-    int rounds;                       ///< of timed builds
+    std::size_t rays, edge_rays;  ///< through each tree; at edges and at cuts of a closed mesh
+    int rounds;                   ///< of timed builds
 };
 Amounts amounts(const Options& options);
 /// Some 2 GB, and half a minute: where the chapter gives a scene's tree up.
@@ -62,7 +62,7 @@ struct TreePoint {
     std::uint64_t most_pieces = 0;  ///< that one polygon has, or subtrees that it is in
     std::uint64_t placed = 0;       ///< fragments placed in front of, behind or on a node's plane
     std::uint64_t rays = 0, nodes_visited = 0, triangles_tested = 0;
-    std::uint64_t wrong = 0;        ///< rays with another answer than the naive loop's
+    std::uint64_t wrong = 0;  ///< rays with another answer than the naive loop's
     double build_ms = 0.0;
 
     double per_polygon() const { return double(fragments) / double(polygons); }
@@ -120,9 +120,9 @@ std::optional<double> slope(const Growth& growth, const Value& value) {
 struct Crossings {
     std::string scene;
     std::uint64_t rays = 0, visits = 0;
-    std::uint64_t crossed = 0;       ///< visits with the plane crossed in the node's cell
-    std::uint64_t both = 0;          ///< of them, those with two subtrees
-    std::uint64_t undecided = 0;     ///< the ray runs so nearly along the plane that double can't tell
+    std::uint64_t crossed = 0;    ///< visits with the plane crossed in the node's cell
+    std::uint64_t both = 0;       ///< of them, those with two subtrees
+    std::uint64_t undecided = 0;  ///< the ray runs so nearly along the plane that double can't tell
     std::uint64_t contradicted = 0;  ///< of the crossed: the ray's line stays on one side
 };
 std::vector<Crossings> measure_crossings(const Options& options);
@@ -153,10 +153,10 @@ struct Measurements {
 /// and what the exact grade must not have: lost area, cracks, slipped rays.
 std::uint64_t wrong_answers(const Measurements& measured);
 
-Chart fragments_chart(const std::vector<Growth>& growth);     ///< fig_03_11
-Chart build_chart(const std::vector<Growth>& growth);         ///< fig_03_12
-Chart grades_chart(const std::vector<GradePoint>& grades);    ///< fig_03_13
-Chart rays_chart(const std::vector<Growth>& growth);          ///< fig_03_14
+Chart fragments_chart(const std::vector<Growth>& growth);   ///< fig_03_11
+Chart build_chart(const std::vector<Growth>& growth);       ///< fig_03_12
+Chart grades_chart(const std::vector<GradePoint>& grades);  ///< fig_03_13
+Chart rays_chart(const std::vector<Growth>& growth);        ///< fig_03_14
 
 /// H4, H5, H6, H7 and P3.
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);

@@ -3,9 +3,9 @@
 /// a polygon that the plane cuts through two of its corners.
 #pragma once
 
-#include <span>
-
 #include "chapters/ch03_bsp_trees/fragment.hpp"
+
+#include <span>
 
 namespace space {
 

@@ -3,10 +3,10 @@
 /// to the back is cut too, at that very corner: the front piece gets it twice.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
 #include <span>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 namespace space {
 

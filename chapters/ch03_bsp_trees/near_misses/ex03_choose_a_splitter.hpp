@@ -3,11 +3,11 @@
 /// itself and what lies on its line.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
 #include <cmath>
 #include <limits>
 #include <span>
-
-#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 namespace space {
 

@@ -3,10 +3,10 @@
 /// may be on the plane: everything below that node is lost.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/bsp_tree.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/bsp_tree.hpp"
 
 namespace space {
 

@@ -2,9 +2,9 @@
 /// Exercise 3.1, solution.
 #pragma once
 
-#include <span>
-
 #include "chapters/ch03_bsp_trees/fragment.hpp"
+
+#include <span>
 
 namespace space {
 

@@ -2,10 +2,10 @@
 /// Exercise 3.2, solution.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
 #include <span>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 namespace space {
 

@@ -2,11 +2,11 @@
 /// Exercise 3.3, solution.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/fragment.hpp"
+
 #include <cmath>
 #include <limits>
 #include <span>
-
-#include "chapters/ch03_bsp_trees/fragment.hpp"
 
 namespace space {
 

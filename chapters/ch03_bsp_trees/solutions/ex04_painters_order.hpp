@@ -2,10 +2,10 @@
 /// Exercise 3.4, solution.
 #pragma once
 
+#include "chapters/ch03_bsp_trees/bsp_tree.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "chapters/ch03_bsp_trees/bsp_tree.hpp"
 
 namespace space {
 
