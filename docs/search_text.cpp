@@ -109,7 +109,8 @@ std::vector<SearchEntry> search_entries(const std::string& page, const std::stri
 void write_search_text(const std::filesystem::path& site) {
     // Lists of everything would be found by every word.
     static const std::regex no_text(
-        R"(.*_source|dir_.*|annotated|classes|concepts|files|functions.*|hierarchy|namespaces|namespacemembers.*|namespacespace.*|globals.*|pages)");
+        R"(.*_source|dir_.*|annotated|classes|concepts|files|functions.*|hierarchy|namespaces|)"
+        R"(namespacemembers.*|namespacespace.*|globals.*|pages)");
     static const std::regex code(R"((class|struct|concept|namespace|union).*|.*_8[ch]pp)");
     std::set<std::filesystem::path> pages;  // in the order of their names
     for (const auto& entry : std::filesystem::directory_iterator(site))

@@ -229,7 +229,8 @@ function(add_book_test name)
     set_tests_properties(${name} PROPERTIES LABELS "unit;${ARG_LABELS}" TIMEOUT 900)
 endfunction()
 
-# The lists that the command, the tests and the pages read: figures.json, exercises.txt, chapters.txt.
+# The lists that the command, the tests and the pages read: figures.json, exercises.txt, chapters.txt,
+# catch_arguments.txt.
 function(book_write_lists)
     get_property(figures GLOBAL PROPERTY BOOK_FIGURES)
     list(JOIN figures ",\n " figures)
@@ -247,4 +248,7 @@ function(book_write_lists)
         string(APPEND lines "${chapter} ${below}\n")
     endforeach()
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/chapters.txt CONTENT "${lines}" @ONLY)
+
+    list(JOIN BOOK_CATCH_ARGUMENTS " " arguments)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/catch_arguments.txt CONTENT "${arguments}\n" @ONLY)
 endfunction()

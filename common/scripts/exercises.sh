@@ -40,6 +40,7 @@ list_exercises() {
 
 check_exercise() {
     local program output result=0 state
+    local -a arguments
     find_exercise "$1"
     step_count=3
     set_up build
@@ -54,8 +55,9 @@ check_exercise() {
         printf '\nExercise %s does not compile yet: the first error above says where.\n' "$1"
         return 1
     fi
+    read -ra arguments <"$root/build/release/catch_arguments.txt"
     # In braces: the shell's own word on a crash is left out.
-    { timeout 60 "$program" -w NoTests >"$log/exercise.txt" 2>&1 || result=$?; } 2>/dev/null
+    { timeout 60 "$program" "${arguments[@]}" >"$log/exercise.txt" 2>&1 || result=$?; } 2>/dev/null
     cat "$log/exercise.txt"
     if ((result == 0)); then
         echo "solved $(fingerprint "$stub")" >"$state"
