@@ -70,7 +70,8 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
     Progress tracing("rays through the tree", static_cast<std::size_t>(settings.height));
     const Rendering by_tree = render(scene, bsp, settings, &tracing);
     Progress naively("the same, naively", static_cast<std::size_t>(settings.height));
-    const Rendering by_all = render(scene, Naive<>::build(triangles), settings, &naively);
+    const Rendering by_all =
+        render(scene, Naive<FilteredExact>::build(triangles), settings, &naively);
 
     const DepthBuffer painted =
         paint(bsp.tree(), options.tree.grade, scene.camera, options.width, options.height);

@@ -1,6 +1,5 @@
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 
-#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "common/scene.hpp"
 #include "tests/suite/accelerator_suite.hpp"
 
@@ -76,7 +75,8 @@ TEST_CASE("the splitters G, E, B, A give the sets and the tree that Heinonen16 p
 }
 
 TEST_CASE("the suite: BSP tree") {
-    check_accelerator<Bsp<>>("bsp", [](std::span<const Triangle> t) { return Bsp<>::build(t); });
+    check_accelerator<Bsp<>, FilteredExact>(
+        "bsp", [](std::span<const Triangle> t) { return Bsp<>::build(t); });
 }
 
 TEST_CASE("the suite: BSP tree with free planes, over the exact test") {
@@ -106,7 +106,7 @@ TEST_CASE(
             return true;
         }
     });
-    check_accelerator<Bsp<>>("bsp, shared", build, options);
+    check_accelerator<Bsp<>, FilteredExact>("bsp, shared", build, options);
     CHECK(options.scenes.size() > 18);
     CHECK(std::find(refused.begin(), refused.end(), "equal centroids") != refused.end());
     CHECK(std::find(refused.begin(), refused.end(), "whole numbers") != refused.end());

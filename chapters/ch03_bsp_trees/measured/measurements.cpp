@@ -76,7 +76,7 @@ TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& o
     : scene(std::move(name)),
       triangles(std::move(all)),
       rays(rays_from_around(triangles, amounts(options).rays, options.seed)) {
-    const Naive<> naive = Naive<>::build(triangles);
+    const auto naive = Naive<FilteredExact>::build(triangles);
     truth.resize(rays.size());
     parallel_for(rays.size(), options.threads, 16,
                  [&](std::size_t i) { truth[i] = closest_hit(naive, rays[i]); });
