@@ -103,7 +103,7 @@ RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const 
 
     std::vector<HitRecord> hits(set.rays.size());
     Progress progress("camera rays", set.rays.size());
-    tracer.variant->build(triangles, options.build_threads)
+    tracer.variant->build(triangles, {options.build_threads})
         .trace({.rays = set.rays,
                 .hits = hits,
                 .threads = options.common.threads,
@@ -143,7 +143,7 @@ std::vector<Measurement> measure(std::span<const Choice> chosen,
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             runs.push_back([&, i] { built[i] = {}; });
             runs.push_back([&, i] {
-                built[i] = chosen[i].variant->build(triangles, options.build_threads);
+                built[i] = chosen[i].variant->build(triangles, {options.build_threads});
                 progress.step();
             });
         }
@@ -164,7 +164,7 @@ std::vector<Measurement> measure(std::span<const Choice> chosen,
                               &progress};
             // The first run, which warms up and is not timed, is the one that counts.
             runs.push_back([&measurement, &structure = built[i], batch, counting = true]() mutable {
-                if (std::exchange(counting, false))
+                if (std::exchange(counting, false) && structure.count)
                     measurement.counts = structure.count(batch);
                 else
                     structure.trace(batch);
@@ -253,7 +253,7 @@ std::size_t check(const Choice& naive, std::span<const Triangle> triangles,
     std::vector<HitRecord> trusted(sample.size()), other(sample.size());
     {
         Progress progress("checking", sample.size());
-        naive.variant->build(triangles, options.build_threads)
+        naive.variant->build(triangles, {options.build_threads})
             .trace({sample_rays, trusted, options.query, options.common.threads, &progress});
     }
     std::size_t wrong = 0;

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -35,25 +36,51 @@ struct Batch {
 struct BuiltStructure {
     std::function<TreeShape()> shape;
     std::function<void(const Batch&)> trace;  ///< without counting: what is timed
-    std::function<TraversalCounts(const Batch&)>
-        count;                   ///< the same answers, and the work behind them
-    unsigned build_threads = 1;  ///< that the builder could use
+    /// The same answers, and the work behind them. A peer does not tell.
+    std::function<TraversalCounts(const Batch&)> count = {};
+    unsigned build_threads = 1;      ///< that the builder could use
+    std::string configuration = {};  ///< version and flags of a peer
 };
 
-/// A structure with one of the triangle tests.
+/// Where a builder must give up rather than take all memory or an evening: in counts, so that it
+/// does so on every machine or on none. Some 3 GB and a minute.
+struct Limits {
+    std::size_t references = 10'000'000;     ///< entries of triangles or pieces of them, in all
+    std::uint64_t placements = 100'000'000;  ///< how often an entry is put somewhere, by all nodes
+};
+
+/// What a builder may use.
+struct BuildOptions {
+    unsigned threads = 1;
+    Limits limits = {};
+};
+
+/// A structure with one of the triangle tests. build throws where it gives up.
 struct StructureVariant {
     std::string_view triangle_test, about_test;
-    std::function<BuiltStructure(std::span<const Triangle> triangles, unsigned threads)> build;
+    std::function<BuiltStructure(std::span<const Triangle> triangles, const BuildOptions& options)>
+        build;
 };
 
-/// An entry of the lab: a structure of the book, in the variants that can be asked for.
+/// An entry of the lab, in the variants that can be asked for.
 struct Structure {
     std::string_view name, about;
     std::vector<StructureVariant> variants;  ///< the first is the default
+    std::string_view home = "";              ///< "chapter 3", or the library that it comes from
+    bool by_default = false;                 ///< measured where no structure is named
+    bool is_peer = false;  ///< others' code, with a test of its own, whose answers may be wrong
 };
 
+/// The structures of a chapter or of another library; the first is measured by default.
+struct Home {
+    std::string_view name;
+    std::vector<Structure> structures;
+    bool is_peer = false;
+};
+std::vector<Structure> joined(std::vector<Home> homes);
+
 /// Every structure of the book, in its order; the first is naive tracing, which --check trusts.
-const std::vector<Structure>& structures();
+std::vector<Structure> structures();
 
 // [batch]
 /// Answers the query for each ray of the batch; the answers do not depend on the number of threads.
@@ -87,12 +114,13 @@ Counts trace(const A& accelerator, const Batch& batch) {
 }
 // [batch]
 
-/// Builds an A; `threads` matters to a Config that has a field of that name.
+/// Builds an A; the number of threads matters to a Config that has a field `threads`.
 template <Accelerator A>
-BuiltStructure build_configured(std::span<const Triangle> triangles, unsigned threads,
+BuiltStructure build_configured(std::span<const Triangle> triangles, const BuildOptions& options,
                                 typename A::Config config) {
     unsigned build_threads = 1;
-    if constexpr (requires { config.threads = threads; }) config.threads = build_threads = threads;
+    if constexpr (requires { config.threads = options.threads; })
+        config.threads = build_threads = options.threads;
     const auto structure = std::make_shared<const A>(A::build(triangles, config));
     return {.shape = [structure] { return structure->shape(); },
             .trace = [structure](const Batch& batch) { trace<NoCounts>(*structure, batch); },
@@ -103,8 +131,8 @@ BuiltStructure build_configured(std::span<const Triangle> triangles, unsigned th
 
 /// The same with the default Config.
 template <Accelerator A>
-BuiltStructure build_structure(std::span<const Triangle> triangles, unsigned threads) {
-    return build_configured<A>(triangles, threads, {});
+BuiltStructure build_structure(std::span<const Triangle> triangles, const BuildOptions& options) {
+    return build_configured<A>(triangles, options, {});
 }
 
 }  // namespace space

@@ -79,7 +79,7 @@ function(add_chapter)
     set_property(GLOBAL PROPERTY BOOK_${chapter}_BUILDS_ON ${ARG_BUILDS_ON})
 
     file(GLOB subject CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/*/*.cpp)
-    list(FILTER subject EXCLUDE REGEX "/main\\.cpp$|/(figures|measured|exercises|solutions|near_misses|checks)/[^/]*$")
+    list(FILTER subject EXCLUDE REGEX "/main\\.cpp$|/(figures|measured|exercises|solutions|near_misses|checks|peers)/[^/]*$")
     file(GLOB measured CONFIGURE_DEPENDS ${dir}/measured/*.cpp)
     list(REMOVE_ITEM measured ${dir}/measured/benchmarks.cpp)
     file(GLOB figures CONFIGURE_DEPENDS ${dir}/figures/*.cpp)

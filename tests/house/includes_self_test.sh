@@ -4,7 +4,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{common/mesh_reader,docs,tests} "$tree"/chapters/{ch01_a/{checks,measured,figures},ch02_b,ch03_c}
+mkdir -p "$tree"/{common/mesh_reader,docs,tests} "$tree"/chapters/{ch01_a/{checks,measured,figures,peers},ch02_b,ch03_c}
 printf '%s\n' 'ch01_a ' 'ch02_b ch01_a' 'ch03_c ch02_b' >"$tree/chapters.txt"
 
 put() { printf '%s\n' "${@:2}" >"$tree/$1"; }
@@ -16,6 +16,7 @@ put chapters/ch01_a/checks/ex01_a.cpp '#include "ex01_a.hpp"' '#include "tests/c
 put chapters/ch03_c/c.hpp '#include "chapters/ch03_c/other.hpp"' '#include "chapters/ch01_a/a.hpp"' '#include <vector>'
 put chapters/ch01_a/figures/f.cpp '#include "chapters/ch01_a/measured/m.hpp"' '#include "chapters/ch01_a/a.hpp"'
 put chapters/ch01_a/main.cpp '#include "chapters/ch01_a/figures/f.hpp"' '#include "chapters/ch01_a/measured/m.hpp"'
+put chapters/ch01_a/peers/p.cpp '#include <CGAL/AABB_tree.h>' '#include "chapters/ch01_a/a.hpp"'
 check || { echo "a tree without faults is refused" && exit 1; }
 
 failures=0
@@ -34,6 +35,7 @@ finds 'ch02_b does not build on ch03_c' chapters/ch02_b/up.hpp '  #  include "ch
 finds 'the subject includes measured/' chapters/ch01_a/low.hpp '#include "chapters/ch01_a/measured/m.hpp"'
 finds 'the subject includes figures/' chapters/ch01_a/low.hpp '#include "chapters/ch01_a/figures/f.hpp"'
 finds 'measured includes figures/' chapters/ch01_a/measured/m.hpp '#include "chapters/ch01_a/figures/f.hpp"'
+finds 'the subject includes peers/' chapters/ch01_a/low.hpp '#include "chapters/ch01_a/peers/p.hpp"'
 finds 'closed to other chapters' chapters/ch02_b/closed.cpp '#include "chapters/ch01_a/measured/m.hpp"'
 finds 'common/ includes a chapter' common/up.hpp '#include "chapters/ch01_a/a.hpp"'
 finds 'CGAL is for' common/other.cpp '#include <CGAL/Kernel.h>'

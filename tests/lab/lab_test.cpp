@@ -2,6 +2,8 @@
 #include "chapters/ch12_comparison/lab.hpp"
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
 #include "common/mesh.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
@@ -84,8 +86,8 @@ TEST_CASE("each record of a hits file is the naive answer to its ray") {
     const std::string files =
         fmt::format("--mesh {} --rays {} --hits {} --repeat 1", (bench / "soup.ply").string(),
                     (bench / "rays").string(), (bench / "hits").string());
-    const Naive<> naive = Naive<>::build(mesh.triangles());
-    const auto in_float = Naive<BasicMollerTrumbore<float>>::build(mesh.triangles());
+    const auto naive = Naive<FilteredExact>::build(mesh.triangles());
+    const auto in_float = Naive<MollerTrumboreFloat>::build(mesh.triangles());
 
     REQUIRE(run(lab + "--structure naive --triangle-test moller-trumbore-float " + files).code ==
             0);
@@ -341,9 +343,9 @@ TEST_CASE("naive, all and list name the structures; an unknown triangle test is 
     CHECK(structures().front().name == "naive");
     const Ended tests = run(lab + "--triangle-test list");
     CHECK(tests.code == 0);
-    CHECK(tests.out.find("moller-trumbore") != std::string::npos);
-    CHECK(run(lab + "--scene soup:50 --size 4x3 --triangle-test moller-trumbore --structure all")
-              .code == 0);
+    CHECK(tests.out.find("filtered-exact") != std::string::npos);
+    CHECK(run(lab + "--scene soup:50 --size 4x3 --triangle-test watertight --structure all").code ==
+          0);
     CHECK(run(lab + "--help").code == 0);
 }
 
