@@ -2,7 +2,7 @@
 
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/exact_point.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,16 +90,6 @@ void count_cracks(const BspTree<3>& tree, Grade grade, Tiling& tiling) {
             ++tiling.cuts;
             tiling.cracks += of[i].at != of[0].at;
         }
-}
-
-/// Evenly over the sphere: points of the ball, of which only the direction is kept.
-Double3 random_direction(Pcg32& random) {
-    for (;;) {
-        const double x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f),
-                     z = random.uniform(-1.0f, 1.0f);
-        const double square = x * x + y * y + z * z;
-        if (square > 0.0 && square <= 1.0) return Double3(x, y, z) / std::sqrt(square);
-    }
 }
 
 int sign(double value) {

@@ -2,7 +2,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/coverage.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 
@@ -112,7 +112,7 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
     Pcg32 random(5);
     for (int round = 0; round < 20; ++round) {
         Rasteriser rasteriser(square_camera, 61, 61);
-        const Point3 hub(random.uniform(-0.4f, 0.4f), random.uniform(-0.4f, 0.4f), -1.0f);
+        const Point3 hub(random_point(random, Aabb2{Point2(-0.4f), Point2(0.4f)}), -1.0f);
         constexpr int corners = 23;
         std::vector<Point3> rim;
         for (int i = 0; i < corners; ++i) {

@@ -2,7 +2,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 #include <numbers>
@@ -104,18 +104,16 @@ TEST_CASE("shadow origins never meet their own triangle again, and rounded hit p
         Pcg32 random(17);
         int rays = 0, plain = 0, offset = 0;
         for (int i = 0; i < 20'000; ++i) {
-            const auto point = [&] {
-                return Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-            };
-            const Point3 centre = distance * point();
-            Triangle triangle{centre + point(), centre + point(), centre + point()};
+            const Point3 centre = distance * random_vector(random);
+            Triangle triangle{centre + random_vector(random), centre + random_vector(random),
+                              centre + random_vector(random)};
             if (i % 10 == 0) triangle.a.x = triangle.b.x = triangle.c.x = 0.0f;
-            const Point3 eye = centre + 4.0f * point();
+            const Point3 eye = centre + 4.0f * random_vector(random);
             const float u = 0.5f * random.uniform(), v = 0.5f * random.uniform();
             const Point3 aim =
                 triangle.a + u * (triangle.b - triangle.a) + v * (triangle.c - triangle.a);
             const Ray ray{.origin = eye, .direction = aim - eye};
-            const Point3 target = centre + 4.0f * point();
+            const Point3 target = centre + 4.0f * random_vector(random);
             const auto hit = MollerTrumbore::intersect(ray, triangle);
             if (!hit) continue;
             const Double3 n = normal_towards(triangle, ray);

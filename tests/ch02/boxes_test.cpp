@@ -103,9 +103,9 @@ RayAndBox hostile_pair(Pcg32& random, int lowest, int highest) {
     }
     // Of any length down to denormal and up to huge; the rounding of the components makes it miss
     // or hit.
-    const double length =
-        std::ldexp(0.5 + random.uniform_double(),
-                   static_cast<int>(random.below(3)) * (random.below(2) ? 1 : -60));
+    const double mantissa = 0.5 + random.uniform_double();
+    const int exponent = static_cast<int>(random.below(3));
+    const double length = std::ldexp(mantissa, random.below(2) ? exponent : -60 * exponent);
     for (int axis = 0; axis < 3; ++axis) {
         const double d = length * (double{target[axis]} - ray.origin[axis]);
         ray.direction[axis] = static_cast<float>(std::clamp(d, -0x1.fp127, 0x1.fp127));

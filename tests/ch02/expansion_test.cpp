@@ -49,7 +49,8 @@ bool is(const Expansion<N>& e, const mpq_class& expected) {
 
 /// Mantissas of any number of bits, exponents of a float's range or close together.
 float some_float(Pcg32& random, int spread) {
-    const std::uint32_t mantissa = (1u + random.below(1u << 24)) >> random.below(24);
+    const std::uint32_t bits = 1u + random.below(1u << 24);
+    const std::uint32_t mantissa = bits >> random.below(24);
     const int exponent =
         static_cast<int>(random.below(static_cast<std::uint32_t>(spread))) - spread / 2;
     const float size = std::ldexp(static_cast<float>(mantissa), exponent - 24);
@@ -61,8 +62,8 @@ float some_float(Pcg32& random, int spread) {
 TEST_CASE("two_sum and two_product lose nothing") {
     Pcg32 random(401);
     for (int i = 0; i < rounds; ++i) {
-        const double a = double{some_float(random, 60)} * some_float(random, 60),
-                     b = double{some_float(random, 200)} + some_float(random, 60);
+        const double a_factor = some_float(random, 60), b_term = some_float(random, 200);
+        const double a = a_factor * some_float(random, 60), b = b_term + some_float(random, 60);
         const auto [sum, sum_low] = two_sum(a, b);
         REQUIRE(sum == a + b);
         REQUIRE(mpq_class(sum) + mpq_class(sum_low) == mpq_class(a) + mpq_class(b));

@@ -117,7 +117,8 @@ Vector3 vector_of(Pcg32& random, float (*component)(Pcg32&)) {
 /// Exponents from `low` to `low + 15`.
 template <int Low>
 float near_power(Pcg32& random) {
-    return std::ldexp(random.uniform(-1.0f, 1.0f), Low + static_cast<int>(random.below(16)));
+    const float mantissa = random.uniform(-1.0f, 1.0f);
+    return std::ldexp(mantissa, Low + static_cast<int>(random.below(16)));
 }
 
 RayAndTriangle all_of(Pcg32& random, float (*component)(Pcg32&)) {
@@ -140,10 +141,12 @@ RayAndTriangle edge_on(Pcg32& random) {
     RayAndTriangle pair = make_pair({"", Aim::edge}, random);
     const Triangle& t = pair.triangle;
     const Double3 ab = Double3(t.b) - Double3(t.a), ac = Double3(t.c) - Double3(t.a);
-    const auto in_plane = [&](double u, double v) { return Double3(t.a) + u * ab + v * ac; };
-    pair.ray.origin = Point3(in_plane(-random.uniform_double(), 2.0 * random.uniform_double()));
-    pair.ray.direction =
-        Point3(in_plane(random.uniform_double(), random.uniform_double())) - pair.ray.origin;
+    const auto in_plane = [&](double u_scale, double v_scale) {
+        const double u = u_scale * random.uniform_double(), v = v_scale * random.uniform_double();
+        return Point3(Double3(t.a) + u * ab + v * ac);
+    };
+    pair.ray.origin = in_plane(-1.0, 2.0);
+    pair.ray.direction = in_plane(1.0, 1.0) - pair.ray.origin;
     return pair;
 }
 

@@ -1,5 +1,6 @@
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 
+#include "common/random.hpp"
 #include "common/scene.hpp"
 #include "tests/suite/accelerator_suite.hpp"
 
@@ -38,9 +39,7 @@ struct Sets {
 
 std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) {
     Pcg32 random(seed);
-    const auto point = [&](float s) {
-        return Point3(random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s));
-    };
+    const auto point = [&](float s) { return random_point(random, -s, s); };
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Point3 centre = point(1.0f);
@@ -128,8 +127,7 @@ TEST_CASE("every grade and choice of splitters gives the naive loop's hits on ra
                 Pcg32 random(9);
                 int wrong = 0;
                 for (int i = 0; i < 200; ++i) {
-                    const Point3 origin(random.uniform(-3, 3), random.uniform(-3, 3),
-                                        random.uniform(-3, 3));
+                    const Point3 origin = 3.0f * random_vector(random);
                     const Triangle& aim = triangles[random.below(60)];
                     const Ray ray{origin,
                                   (i % 2 ? aim.a : (aim.a + aim.b + aim.c) / 3.0f) - origin};
@@ -157,7 +155,7 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
             const Double3 p = fragment.corners[corner].at,
                           q = fragment.corners[(corner + 1) % fragment.corners.size()].at;
             const Point3 aim(p + random.uniform_double() * (q - p));
-            const Vector3 back(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+            const Vector3 back = 2.0f * random_vector(random);
             const Ray ray{aim + back, -back};
             wrong += closest_hit(bsp, ray) != closest_hit(naive, ray);
         }

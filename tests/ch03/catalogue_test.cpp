@@ -3,6 +3,7 @@
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
+#include "common/random.hpp"
 #include "tests/ch03/gallery.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
 
@@ -58,9 +59,8 @@ std::vector<SplitPlane<3>> random_planes(int count, std::uint64_t seed) {
     Pcg32 random(seed);
     std::vector<SplitPlane<3>> planes;
     for (int i = 0; i < count; ++i) {
-        const Point3 a = scenes::random_point(random, -0.5f, 0.5f),
-                     b = scenes::random_point(random, -1, 1);
-        planes.emplace_back(Corners<3>{a, b, scenes::random_point(random, -1, 1)});
+        const Point3 a = random_point(random, -0.5f, 0.5f), b = random_point(random, -1, 1);
+        planes.emplace_back(Corners<3>{a, b, random_point(random, -1, 1)});
     }
     return planes;
 }
@@ -78,9 +78,8 @@ TEST_CASE(
     const std::vector<Corners<3>> none;
     int plain_wrong = 0, thick_wrong = 0, thick_on = 0, exact_wrong = 0, far = 0, filtered = 0;
     for (int i = 0; i < points; ++i) {
-        const Point3 a = scenes::random_point(random, -1, 1),
-                     b = scenes::random_point(random, -1, 1),
-                     c = scenes::random_point(random, -1, 1);
+        const Point3 a = random_point(random, -1, 1), b = random_point(random, -1, 1),
+                     c = random_point(random, -1, 1);
         const std::vector<SplitPlane<3>> planes{SplitPlane<3>({a, b, c})};
         const float u = random.uniform(), v = random.uniform();
         const Fragment<3> fragment = whole_polygon<3>({a + u * (b - a) + v * (c - a), a, b}, 0);
@@ -149,8 +148,8 @@ TEST_CASE(
     std::vector<SplitPlane<3>> planes;
     Pcg32 random(3);
     for (int i = 0; i < 14; ++i) {
-        const Point3 a(random.uniform(1, 5), random.uniform(1, 5), 0),
-            b(random.uniform(1, 5), random.uniform(1, 5), 0);
+        const Aabb flat{{1, 1, 0}, {5, 5, 0}};
+        const Point3 a = random_point(random, flat), b = random_point(random, flat);
         planes.emplace_back(Corners<3>{a, b, a + Vector3(0, 0, 1)});
     }
     for (const Grade grade : {Grade::ordered_float, Grade::exact}) {
@@ -180,10 +179,9 @@ TEST_CASE(
     Pcg32 random(4);
     int differ[4] = {};
     for (int i = 0; i < points / 10; ++i) {
-        const Point3 p = scenes::random_point(random, -1, 1),
-                     q = scenes::random_point(random, -1, 1);
-        const std::vector<Corners<3>> pair{{{p, q, scenes::random_point(random, -1, 1)}},
-                                           {{q, p, scenes::random_point(random, -1, 1)}}};
+        const Point3 p = random_point(random, -1, 1), q = random_point(random, -1, 1);
+        const std::vector<Corners<3>> pair{{{p, q, random_point(random, -1, 1)}},
+                                           {{q, p, random_point(random, -1, 1)}}};
         const std::vector<SplitPlane<3>> planes = random_planes(1, random.next());
         for (std::size_t g = 0; g < 4; ++g) {
             const Splitter<3> splitter(pair, planes, grades[g], 0.0);
@@ -257,9 +255,7 @@ TEST_CASE("P5: cuts of cuts drift off the plane and lose area; exact corners don
     const std::vector<Corners<3>> triangle{{{{0, 0, 0.3f}, {10, 1, 1.7f}, {1, 10, -2.1f}}}};
     std::vector<SplitPlane<3>> planes;
     Pcg32 random(10);
-    const auto place = [&] {
-        return Point3(random.uniform(1, 5), random.uniform(1, 5), random.uniform(-1, 1));
-    };
+    const auto place = [&] { return random_point(random, Aabb{{1, 1, -1}, {5, 5, 1}}); };
     for (int i = 0; i < 14; ++i) {
         const Point3 a = place(), b = place();
         planes.emplace_back(Corners<3>{a, b, place()});

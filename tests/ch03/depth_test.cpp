@@ -152,8 +152,8 @@ int wrong_hits(const std::vector<Triangle>& triangles, const BspConfig& config, 
     Pcg32 random(3);
     int wrong = 0;
     for (int i = 0; i < 300; ++i) {
-        const Point3 origin = size * scenes::random_point(random, -0.5f, 1.5f);
-        Vector3 direction = scenes::random_point(random, -1.0f, 1.0f);
+        const Point3 origin = size * random_point(random, -0.5f, 1.5f);
+        Vector3 direction = random_point(random, -1.0f, 1.0f);
         if (i % 2 && !triangles.empty()) {
             const Triangle& aim =
                 triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/cgal_fragments.hpp"
 #include "tests/oracle/exact.hpp"
@@ -91,9 +91,7 @@ class Gallery {
         const auto origin = [&]() -> Point3 {
             for (;;) {  // outside of the box by up to its size; some on the grid that whole numbers
                         // lie on
-                const auto share = [&] { return random.uniform(-1.0f, 2.0f); };
-                const float x = share(), y = share(), z = share();
-                Point3 p = box_.min + Vector3(x, y, z) * extent;
+                Point3 p = box_.min + random_point(random, -1.0f, 2.0f) * extent;
                 if (random.below(4) == 0) p = glm::floor(p * 4.0f) * 0.25f;
                 if (!box_.contains(p)) return p;
             }

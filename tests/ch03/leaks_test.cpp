@@ -31,9 +31,8 @@ Mesh cut_sphere() {
     Pcg32 random(16);
     for (int i = 0; i < 16; ++i) {
         mesh.order.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-        const Point3 a = scenes::random_point(random, -0.5f, 0.5f),
-                     u = scenes::random_point(random, -1, 1),
-                     v = scenes::random_point(random, -1, 1);
+        const Point3 a = random_point(random, -0.5f, 0.5f), u = random_point(random, -1, 1),
+                     v = random_point(random, -1, 1);
         mesh.triangles.push_back({a - 30.0f * u - 30.0f * v, a + 60.0f * u, a + 60.0f * v});
     }
     return mesh;

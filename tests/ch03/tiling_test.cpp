@@ -2,6 +2,7 @@
 // and by how much not for the others.
 #include "chapters/ch03_bsp_trees/tiling.hpp"
 
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/cgal_fragments.hpp"
 #include "tests/ch03/tiling_scenes.hpp"
@@ -124,7 +125,7 @@ TEST_CASE("the exact grade tiles polygons exactly where planes differ in the las
     Pcg32 random(8);
     std::vector<Triangle> sheaf, copies;
     for (int i = 0; i < 24; ++i) {
-        const auto nudge = [&] { return scenes::random_point(random, -1e-7f, 1e-7f); };
+        const auto nudge = [&] { return random_point(random, -1e-7f, 1e-7f); };
         const double angle = 0.13 * i;
         const Point3 axis_a(0.3f, 0.1f, -1), axis_b(0.4f, 0.2f, 1),
             out(std::cos(angle), std::sin(angle), 0.1 * i);
@@ -146,10 +147,7 @@ TEST_CASE("in the plane, the exact grade tiles every segment exactly") {
     Pcg32 random(9);
     std::vector<Corners<2>> segments, whole;
     for (int i = 0; i < 150; ++i) {
-        const auto point = [&] {
-            const float x = random.uniform(-1, 1);
-            return Point2(x, random.uniform(-1, 1));
-        };
+        const auto point = [&] { return random_point(random, Aabb2{Point2(-1.0f), Point2(1.0f)}); };
         const auto whole_point = [&] {
             const auto x = static_cast<float>(random.below(7));
             return Point2(x, static_cast<float>(random.below(7)));

@@ -2,6 +2,7 @@
 // outside.
 #include "chapters/ch01_naive_ray_tracing/coverage.hpp"
 #include "common/program/report.hpp"
+#include "common/random.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch03/cgal_fragments.hpp"
@@ -42,7 +43,7 @@ std::vector<Point3> eyes(const std::vector<Triangle>& triangles, std::uint64_t s
     Pcg32 random(seed);
     const Aabb box = box_of(triangles);
     const auto in_box = [&](float low, float high) {
-        return box.min + scenes::random_point(random, low, high) * box.extent();
+        return box.min + random_point(random, low, high) * box.extent();
     };
     const auto any = [&]() -> const Triangle& {
         return triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];
@@ -114,8 +115,8 @@ TEST_CASE(
             const CameraFrame frame(camera);
             Pcg32 random(2);
             for (int i = 0; i < width * height / 8; ++i) {
-                Ray ray = camera_ray(camera, frame, random.below(width) + 0.5,
-                                     random.below(height) + 0.5, width, height);
+                const double x = random.below(width) + 0.5, y = random.below(height) + 0.5;
+                Ray ray = camera_ray(camera, frame, x, y, width, height);
                 if (i % 5 == 0) {  // exactly at a vertex or in the direction of an edge
                     const Triangle& t = scene.triangles[random.below(
                         static_cast<std::uint32_t>(scene.triangles.size()))];
@@ -290,8 +291,8 @@ TEST_CASE("the painter's picture is the z-buffer's, but for pixels at edges and 
         Pcg32 random(6);
         for (int view_number = 0; view_number < 3; ++view_number) {
             const Camera camera{
-                .eye = box.min + scenes::random_point(random, view_number == 2 ? 0.0f : 1.2f,
-                                                      view_number == 2 ? 1.0f : 2.2f) *
+                .eye = box.min + random_point(random, view_number == 2 ? 0.0f : 1.2f,
+                                              view_number == 2 ? 1.0f : 2.2f) *
                                      box.extent(),
                 .target = box.centroid(),
                 .field_of_view = 60};
@@ -352,7 +353,7 @@ std::optional<Cell> exact_cell(const ExactOracle& oracle, const Point3& p, Pcg32
         if (box.contains(p) && cgal_has_on(t, p)) return Cell::boundary;
     }
     for (int attempt = 0; attempt < 20; ++attempt) {
-        const Vector3 direction = scenes::random_point(random, -1.0f, 1.0f);
+        const Vector3 direction = random_point(random, -1.0f, 1.0f);
         bool clean = true;
         std::size_t ahead = 0, behind = 0;
         for (const ExactHit& hit :
@@ -392,12 +393,13 @@ TEST_CASE(
             for (int i = 0; i < points_each / 3; ++i) {
                 const Triangle& t =
                     mesh.triangles[random.below(static_cast<std::uint32_t>(mesh.triangles.size()))];
-                Point3 p = box.min + scenes::random_point(random, -0.2f, 1.2f) * box.extent();
+                Point3 p = box.min + random_point(random, -0.2f, 1.2f) * box.extent();
                 if (i % 6 == 1) p = t.a;                 // on the surface
                 if (i % 6 == 2) p = 0.5f * (t.a + t.b);  // on an edge, or nearly
-                if (i % 6 == 3)
-                    p = t.a + random.uniform() * (t.b - t.a) +
-                        random.uniform() * 0.3f * (t.c - t.a);    // nearly on a face
+                if (i % 6 == 3) {                        // nearly on a face
+                    p = t.a + random.uniform() * (t.b - t.a);
+                    p += random.uniform() * 0.3f * (t.c - t.a);
+                }
                 if (i % 6 == 4) p = t.a + 2.0f * (t.a - t.b);     // in a face's plane, beyond it
                 if (i % 6 == 5) p = glm::floor(p * 2.0f) * 0.5f;  // on the planes of boxes
                 const auto expected = exact_cell(oracle, p, random);

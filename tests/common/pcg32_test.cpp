@@ -1,8 +1,8 @@
-#include "common/pcg32.hpp"
-
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace space {
 
@@ -57,3 +57,31 @@ TEST_CASE("below(n) gives each of 0 .. n - 1 about as often") {
 }
 
 }  // namespace space
+
+TEST_CASE("a random point lies in its box; x is drawn first") {
+    Pcg32 random(4), again(4);
+    const Aabb box{{-1.0f, 2.0f, 5.0f}, {1.0f, 2.5f, 9.0f}};
+    for (int i = 0; i < 1'000; ++i) {
+        const Point3 p = random_point(random, box);
+        CHECK(box.contains(p));
+        CHECK(p.x == again.uniform(-1.0f, 1.0f));
+        CHECK(p.y == again.uniform(2.0f, 2.5f));
+        CHECK(p.z == again.uniform(5.0f, 9.0f));
+    }
+}
+
+TEST_CASE("random directions have length 1 and go to all sides alike") {
+    Pcg32 random(5);
+    Double3 sum(0.0), squares(0.0);
+    constexpr int count = 30'000;
+    for (int i = 0; i < count; ++i) {
+        const Double3 d = random_direction(random);
+        CHECK(std::abs(glm::length(d) - 1.0) < 1e-15);
+        sum += d;
+        squares += d * d;
+    }
+    for (int axis = 0; axis < 3; ++axis) {  // five standard deviations
+        CHECK(std::abs(sum[axis]) < 5.0 * std::sqrt(count / 3.0));
+        CHECK(std::abs(squares[axis] - count / 3.0) < 5.0 * std::sqrt(count * 4.0 / 45.0));
+    }
+}

@@ -5,7 +5,7 @@
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
 #include "common/mesh.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/lab/files.hpp"
 #include "tests/lab/process.hpp"
@@ -46,7 +46,7 @@ Ray ray_down(std::uint32_t i) {
 TriangleMesh soup(std::uint32_t count) {
     Pcg32 random(11);
     TriangleMesh mesh;
-    const auto point = [&] { return Point3(random.uniform(), random.uniform(), random.uniform()); };
+    const auto point = [&] { return random_point(random, 0.0f, 1.0f); };
     for (std::uint32_t i = 0; i < count; ++i) {
         const float size = std::ldexp(1.0f, -static_cast<int>(random.below(6)));
         const Point3 corner = point();
@@ -59,12 +59,12 @@ TriangleMesh soup(std::uint32_t count) {
 
 std::vector<Ray> random_rays(std::size_t count) {
     Pcg32 random(12);
-    const auto point = [&] { return Point3(random.uniform(), random.uniform(), random.uniform()); };
+    const auto point = [&] { return random_point(random, 0.0f, 1.0f); };
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {
         ray.origin = 3.0f * point() - 1.0f;
-        ray.direction =
-            std::ldexp(1.0f, static_cast<int>(random.below(9)) - 4) * (point() - ray.origin);
+        const float scale = std::ldexp(1.0f, static_cast<int>(random.below(9)) - 4);
+        ray.direction = scale * (point() - ray.origin);
         if (random.below(4) == 0) ray.tmin = random.uniform();
         if (random.below(4) == 0) ray.tmax = ray.tmin + random.uniform();
     }

@@ -1,6 +1,6 @@
 #include "tests/oracle/exact.hpp"
 
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/integer_oracle.hpp"
 
@@ -15,12 +15,6 @@ const Triangle corner{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 
 Ray down(float x, float y) {
     return {.origin = {x, y, 1}, .direction = {0, 0, -1}};
-}
-
-Point3 random_point(Pcg32& random, float low, float high) {
-    const float x = random.uniform(low, high), y = random.uniform(low, high),
-                z = random.uniform(low, high);
-    return {x, y, z};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/pcg32.hpp"
 #include "common/program/report.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/compare.hpp"
 #include "tests/oracle/moller_trumbore_bound.hpp"
@@ -27,10 +28,6 @@ constexpr int pairs = 20'000;
 
 /// The same examples on every run; RC_PARAMS in the environment asks for others.
 const int seeded = ::setenv("RC_PARAMS", "seed=1 max_success=1000", 0);
-
-Point3 random_point(Pcg32& random, float low, float high) {
-    return scenes::random_point(random, low, high);
-}
 
 struct Decisions {
     std::size_t wrong_hits = 0, wrong_misses = 0, beyond = 0;

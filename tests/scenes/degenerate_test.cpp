@@ -56,9 +56,9 @@ TEST_CASE("degenerate triangles are counted as the exact predicate counts them",
         for (int i = 0; i < 20000; ++i) {
             const int spread = static_cast<int>(random.below(3)) * 100 + 1;
             const auto scaled = [&] {
-                return std::ldexp(
-                    integer(3), static_cast<int>(random.below(static_cast<std::uint32_t>(spread))) -
-                                    spread / 2);
+                const auto exponent =
+                    static_cast<int>(random.below(static_cast<std::uint32_t>(spread)));
+                return std::ldexp(integer(3), exponent - spread / 2);
             };
             Triangle triangle;
             for (Point3* p : {&triangle.a, &triangle.b, &triangle.c})

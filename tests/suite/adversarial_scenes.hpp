@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/geometry.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 
 #include <glm/common.hpp>
 
@@ -20,12 +20,6 @@ struct TestScene {
 };
 
 namespace scenes {
-
-inline Point3 random_point(Pcg32& random, float low, float high) {
-    const float x = random.uniform(low, high), y = random.uniform(low, high),
-                z = random.uniform(low, high);
-    return {x, y, z};
-}
 
 /// Triangles of about the given size with their middles in the unit cube.
 inline std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) {

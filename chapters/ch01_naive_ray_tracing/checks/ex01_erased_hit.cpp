@@ -1,7 +1,7 @@
 #include "ex01_erased_hit.hpp"
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 #include <array>
@@ -48,9 +48,7 @@ TEST_CASE("a ray that meets nothing sees nothing") {
 
 TEST_CASE("2,000 random rays see what the naive tracer sees") {
     Pcg32 random(1);
-    const auto point = [&] {
-        return Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    };
+    const auto point = [&] { return random_vector(random); };
     std::vector<Triangle> triangles;
     for (int i = 0; i < 50; ++i) triangles.push_back({point(), point(), point()});
     const Naive<> naive = Naive<>::build(triangles);

@@ -1,7 +1,7 @@
 #include "ex04_tests_per_pixel.hpp"
 
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 #include <numeric>
@@ -14,9 +14,7 @@ namespace {
 Scene random_scene(std::uint32_t triangles) {
     Scene scene;
     Pcg32 random(7);
-    const auto point = [&] {
-        return Point3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    };
+    const auto point = [&] { return random_vector(random); };
     for (std::uint32_t i = 0; i < triangles; ++i) {
         const Point3 centre = point();
         scene.mesh.vertices.insert(

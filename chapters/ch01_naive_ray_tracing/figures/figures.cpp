@@ -6,10 +6,10 @@
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/measure.hpp"
-#include "common/pcg32.hpp"
 #include "common/program/file.hpp"
 #include "common/program/report.hpp"
 #include "common/program/svg.hpp"
+#include "common/random.hpp"
 
 #include <fmt/format.h>
 
@@ -482,10 +482,9 @@ void fig_01_07(const Options& options) {
 std::vector<Ray> rays_at_vertices(const TriangleMesh& sphere, std::size_t count,
                                   std::uint64_t seed) {
     Pcg32 random(seed);
-    const auto coordinate = [&] { return random.uniform(-3.0f, 3.0f); };
     std::vector<Ray> rays;
     while (rays.size() < count) {
-        const Point3 origin(coordinate(), coordinate(), coordinate());
+        const Point3 origin = random_point(random, -3.0f, 3.0f);
         const Point3& vertex =
             sphere.vertices[random.below(static_cast<std::uint32_t>(sphere.vertices.size()))];
         const Vector3 direction = vertex - origin;

@@ -1,6 +1,6 @@
 #include "ex01_one_root_fewer.hpp"
 
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 #include <cmath>
@@ -40,9 +40,8 @@ TEST_CASE("two square roots are enough") {
 TEST_CASE("the weights are right to within four roundings for normals of any length") {
     Pcg32 random(21);
     for (int i = 0; i < 1000; ++i) {
-        const Vector3 n =
-            std::ldexp(1.0f, static_cast<int>(random.below(20)) - 10) *
-            Vector3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(1, 2));
+        const float length = std::ldexp(1.0f, static_cast<int>(random.below(20)) - 10);
+        const Vector3 n = length * random_point(random, Aabb{{-1, -1, 1}, {1, 1, 2}});
         const float u = random.uniform(), v = random.uniform();
         const Weights result = counted(u * n, v * n, n).weights;
         CHECK(std::abs(result.u - u) <= 8 * 0x1p-24f * u);

@@ -1,18 +1,10 @@
 #include "ex05_conservative_box.hpp"
 
 #include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace space;
-
-namespace {
-
-Point3 point(Pcg32& random, float low, float high) {
-    return {random.uniform(low, high), random.uniform(low, high), random.uniform(low, high)};
-}
-
-}  // namespace
 
 TEST_CASE("a ray through a corner of a box hits it") {
     const Ray ray{{-9, -3, 3}, {9.69999981f, 3.79999995f, -2}};
@@ -24,12 +16,12 @@ TEST_CASE("no ray towards a corner that hits the box in exact arithmetic is miss
     int hits = 0, missed = 0;
     for (int i = 0; i < 200'000; ++i) {
         Aabb box;
-        box.extend(point(random, -1, 1));
-        box.extend(point(random, -1, 1));
+        box.extend(random_vector(random));
+        box.extend(random_vector(random));
         const Point3 corner{(random.below(2) ? box.min : box.max).x,
                             (random.below(2) ? box.min : box.max).y,
                             (random.below(2) ? box.min : box.max).z};
-        const Point3 origin = point(random, -9, 9);
+        const Point3 origin = random_point(random, -9, 9);
         // Of any length: where the corner is at t = 1 the roundings nearly cancel.
         const float stretch = random.below(2) ? 1.0f : random.uniform(0.5f, 1.5f);
         const Ray ray{origin, stretch * (corner - origin)};
@@ -45,10 +37,9 @@ TEST_CASE("a ray that passes at a thousandth of the box's size is missed") {
     Pcg32 random(6);
     int wrong = 0;
     for (int i = 0; i < 10'000; ++i) {
-        const Point3 origin(random.uniform(-9, -2), random.uniform(-1, 1), random.uniform(-1, 1));
-        const Point3 beside(
-            0.0f, 1.001f,
-            random.uniform(-1, 1));  // the box ends at y = 1; below, the ray goes upwards
+        const Point3 origin = random_point(random, Aabb{{-9, -1, -1}, {-2, 1, 1}});
+        // The box ends at y = 1; below, the ray goes upwards.
+        const Point3 beside(0.0f, 1.001f, random.uniform(-1, 1));
         wrong += may_hit_box({origin, beside - origin}, {{0, -1, -1}, {1, 1, 1}});
     }
     CHECK(wrong == 0);

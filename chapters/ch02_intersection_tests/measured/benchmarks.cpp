@@ -4,7 +4,7 @@
 #include "chapters/ch02_intersection_tests/shape_tests.hpp"
 #include "chapters/ch02_intersection_tests/square_roots.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -18,11 +18,6 @@ using namespace space::ch02;
 
 constexpr std::size_t shapes = 512, rays_in_all = 64;
 
-Vector3 random_vector(Pcg32& random) {
-    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f),
-                z = random.uniform(-1.0f, 1.0f);
-    return {x, y, z};
-}
 std::vector<Ray> random_rays() {
     Pcg32 random(1);
     std::vector<Ray> rays;

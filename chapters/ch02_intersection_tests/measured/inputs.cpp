@@ -7,20 +7,6 @@
 
 namespace space::ch02 {
 
-Vector3 random_vector(Pcg32& random) {
-    const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f),
-                z = random.uniform(-1.0f, 1.0f);
-    return {x, y, z};
-}
-
-Double3 random_direction(Pcg32& random) {
-    for (;;) {
-        const Double3 v{random_vector(random)};
-        const double square = glm::dot(v, v);
-        if (square > 0.01 && square <= 1.0) return v / std::sqrt(square);
-    }
-}
-
 // --- triangles ---
 
 const std::vector<TriangleInput>& triangle_inputs() {

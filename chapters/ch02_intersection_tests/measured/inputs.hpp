@@ -5,18 +5,13 @@
 #pragma once
 
 #include "common/mesh.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace space::ch02 {
-
-/// Each component uniform in [-1, 1).
-Vector3 random_vector(Pcg32& random);
-/// Uniform on the unit sphere (rejection, then normalised: no transcendental functions).
-Double3 random_direction(Pcg32& random);
 
 // --- triangles ---
 

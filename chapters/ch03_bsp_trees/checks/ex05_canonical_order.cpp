@@ -1,6 +1,6 @@
 #include "ex05_canonical_order.hpp"
 
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 
 #include <fmt/format.h>
@@ -33,9 +33,7 @@ std::string both(const Case& edge) {
 template <class Visit>
 void each_edge(int count, float size, const Visit& visit) {
     Pcg32 random(35);
-    const auto point = [&](float s) {
-        return Point3{random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s)};
-    };
+    const auto point = [&](float s) { return random_point(random, -s, s); };
     for (int visited = 0; visited < count;) {
         const Case edge{point(size), point(size), point(1.0f), random.uniform(-size, size)};
         const double at_p = glm::dot(Double3(edge.normal), Double3(edge.p)) - edge.offset;

@@ -2,8 +2,8 @@
 
 #include "chapters/ch03_bsp_trees/figures/drawings.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
-#include "common/pcg32.hpp"
 #include "common/program/report.hpp"
+#include "common/random.hpp"
 
 #include <fmt/format.h>
 
@@ -52,7 +52,7 @@ struct Neighbours {
 /// at right angles to it.
 Neighbours random_neighbours(Pcg32& random) {
     const auto point = [&](float low_x, float high_x, float low_y, float high_y) {
-        return Point3(random.uniform(low_x, high_x), random.uniform(low_y, high_y), 0.0f);
+        return Point3(random_point(random, Aabb2{{low_x, low_y}, {high_x, high_y}}), 0.0f);
     };
     Neighbours n;
     n.p = point(0.72f, 0.78f, 0.51f, 0.58f);

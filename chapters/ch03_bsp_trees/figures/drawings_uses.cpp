@@ -3,7 +3,7 @@
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 #include "chapters/ch03_bsp_trees/figures/drawings.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
-#include "common/pcg32.hpp"
+#include "common/random.hpp"
 
 #include <fmt/format.h>
 
@@ -200,7 +200,7 @@ void draw_ray(const Options& options) {
     std::vector<Segment> segments;
     Pcg32 random(21);
     while (segments.size() < 22) {
-        const Point2 middle(random.uniform(1.5f, 24.5f), random.uniform(1.0f, 12.0f));
+        const Point2 middle = random_point(random, Aabb2{{1.5f, 1.0f}, {24.5f, 12.0f}});
         const auto angle = static_cast<double>(random.uniform(0.0f, 3.14f));
         const double half = static_cast<double>(random.uniform(0.5f, 1.4f));
         const Vector2 way = at(half * std::cos(angle), half * std::sin(angle));

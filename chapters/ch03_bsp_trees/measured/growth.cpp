@@ -1,6 +1,7 @@
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/report.hpp"
+#include "common/random.hpp"
 #include "common/scene.hpp"
 #include "common/scenes/shapes.hpp"
 
@@ -17,12 +18,9 @@ namespace {
 std::vector<Triangle> big_triangles(std::uint32_t count, std::uint64_t seed) {
     Pcg32 random(seed);
     std::vector<Triangle> triangles;
-    const auto corner = [&] {
-        const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-        return Point3(x, y, z);
-    };
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Point3 a = corner(), b = corner(), c = corner();
+        const Point3 a = random_vector(random), b = random_vector(random),
+                     c = random_vector(random);
         triangles.push_back({a, b, c});
     }
     return triangles;

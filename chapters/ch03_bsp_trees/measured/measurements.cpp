@@ -3,6 +3,7 @@
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/parallel.hpp"
 #include "common/program/progress.hpp"
+#include "common/random.hpp"
 #include "common/scene.hpp"
 
 #include <fmt/format.h>
@@ -23,11 +24,6 @@ struct PlacedCounter : NoBspObserver {
         ++count;
     }
 };
-
-Point3 in_cube(Pcg32& random) {
-    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-    return {x, y, z};
-}
 
 }  // namespace
 
@@ -62,11 +58,9 @@ std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size
     Pcg32 random(seed);
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < count; ++i) {
-        Double3 away;
-        do away = Double3(in_cube(random));
-        while (glm::length(away) > 1.0 || glm::length(away) < 0.01);
-        const Point3 origin(centre + 2.0 * glm::length(half) * glm::normalize(away));
-        const Point3 aim(centre + half * Double3(in_cube(random)));
+        const Double3 away = random_direction(random);
+        const Point3 origin(centre + 2.0 * glm::length(half) * away);
+        const Point3 aim(centre + half * Double3(random_vector(random)));
         rays.push_back({.origin = origin, .direction = aim - origin});
     }
     return rays;
