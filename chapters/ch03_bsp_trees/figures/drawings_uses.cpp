@@ -198,7 +198,7 @@ bool passes(const ConvexCell& cell, const Double2& from, const Double2& to) {
 void draw_ray(const Options& options) {
     constexpr double width = 26.0, height = 13.0;
     std::vector<Segment> segments;
-    Pcg32 random(21);
+    Pcg32 random(27);
     while (segments.size() < 22) {
         const Point2 middle = random_point(random, Aabb2{{1.5f, 1.0f}, {24.5f, 12.0f}});
         const auto angle = static_cast<double>(random.uniform(0.0f, 3.14f));
