@@ -56,8 +56,6 @@ TEST_CASE("below(n) gives each of 0 .. n - 1 about as often") {
     CHECK(std::abs(low - 10'000) < 500);
 }
 
-}  // namespace space
-
 TEST_CASE("a random point lies in its box; x is drawn first") {
     Pcg32 random(4), again(4);
     const Aabb box{{-1.0f, 2.0f, 5.0f}, {1.0f, 2.5f, 9.0f}};
@@ -85,3 +83,5 @@ TEST_CASE("random directions have length 1 and go to all sides alike") {
         CHECK(std::abs(squares[axis] - count / 3.0) < 5.0 * std::sqrt(count * 4.0 / 45.0));
     }
 }
+
+}  // namespace space
