@@ -32,44 +32,68 @@ struct FilteredExact {
         const Double3 a{triangle.a}, d{ray.direction};
         const Double3 e1 = Double3(triangle.b) - a, e2 = Double3(triangle.c) - a,
                       s = Double3(ray.origin) - a;
+        const Sizes size = sizes(d, e1, e2, s);
+        const double bound = outside_bound(size);
+
         const Double3 p = glm::cross(d, e2);
-        const double det = glm::dot(p, e1), side = std::copysign(1.0, det), size = side * det;
-        const double u = side * glm::dot(p, s);
-        const double length = one_norm(e1) + one_norm(e2);
-        const double bound = volume_error * one_norm(d) * length * (length + one_norm(s));
-        if (size > bound) {  // the sign of det is right
-            if (u < -bound || u > size + bound) return decided(stages, Stage::filter);
-            const Double3 q = glm::cross(s, e1);
-            const double v = side * glm::dot(q, d);
-            if (v < -bound || u + v > size + bound) return decided(stages, Stage::filter);
-            if (u > bound && v > bound && u + v < size - bound) {
-                const double inverse = 1.0 / size, t = side * glm::dot(q, e2) * inverse;
-                const double t_bound = volume_error * length * length * one_norm(s);
-                const double slack = 2.0 * (t_bound + std::abs(t) * bound) * inverse;
-                if (const auto nearest = common_float(t - slack, t + slack))
-                    return decided(stages, Stage::filter,
-                                   hit(ray, *nearest, u * inverse, v * inverse));
-            }
+        const double det = glm::dot(p, e1), u = glm::dot(p, s), u_outside = outside(u, det);
+        if (u_outside > bound) return decided(stages, Stage::filter);
+        const Double3 q = glm::cross(s, e1);
+        const double v = glm::dot(q, d), v_outside = outside(v, det - u);
+        if (v_outside > bound) return decided(stages, Stage::filter);
+        if (u_outside < -bound && v_outside < -bound) {
+            const double inverse = 1.0 / det, t = glm::dot(q, e2) * inverse;
+            const double slack = t_bound(size, t, inverse);
+            if (const auto nearest = common_float(t - slack, t + slack))
+                return decided(stages, Stage::filter, hit(ray, *nearest, u * inverse, v * inverse));
         }
         // [filter]
         return by_integers(ray, triangle, stages);
     }
 
-  private:
-    /// Each volume is a sum of products of three vectors' components. A computed term carries at
-    /// most eight roundings: three differences (two where d is a factor), two products, three sums;
-    /// so the error of a volume is at most gamma(8) times the sum of its terms' sizes, gamma(n) = n
-    /// u / (1 - n u), u = 2^-53. In 1-norms these sizes add up to at most |d| |e2| |e1| in det, |d|
-    /// |e2| |s| in u, |d| |e1| |s| in v: all three together are below |d| (|e1| + |e2|) (|e1| +
-    /// |e2| + |s|). Eight more than cover the sums u + v and size + bound and the bound's own
-    /// roundings. Nothing under- or overflows: products of three floats and of the bound stay
-    /// within 2^-500 .. 2^400.
-    static constexpr double volume_error = 16.0 * 0x1p-53;
-    // A hit's `size` is more than three bounds, so the exact D is more than 2/3 of it. With T and D
-    // exact, T' and D' computed, |T / D - T' / D'| = |T' (D' - D) - (T' - T) D'| / (D D') <= 3/2
-    // (|t| bound + t_bound) / size. The quarter of `slack` that is left is at least 8 u |t|, for
-    // the roundings of t and of slack.
+    /// How far x lies outside of the interval between 0 and `end`: negative inside, 0 at both ends.
+    static double outside(double x, double end) {
+        const double half = 0.5 * end;
+        return std::abs(x - half) - std::abs(half);
+    }
+    /// The vectors' 1-norms, rounded.
+    struct Sizes {
+        double d, e1, e2, s;
+    };
+    static Sizes sizes(const Double3& d, const Double3& e1, const Double3& e2, const Double3& s) {
+        return {one_norm(d), one_norm(e1), one_norm(e2), one_norm(s)};
+    }
+    /// Above the error of outside(u, det) and of outside(v, det - u).
+    ///
+    /// With w = 2^-53 and gamma(n) = n w / (1 - n w): each volume is a sum of products of three
+    /// vectors' components. A computed term of det, u and v carries seven roundings, two
+    /// differences (the direction is none), two products, three sums; so a volume is off by at most
+    /// gamma(7) times the sum of its terms' sizes, which is at most |d||e1||e2| in det, |d||e2||s|
+    /// in u and |d||e1||s| in v. `outside` passes on the errors of x and of end; the roundings of
+    /// det - u, of x - half and of the last difference add w |det - u|, w |x - half| and w |x|. All
+    /// in all at most 9 w |d| (|e1||e2| + (|e1| + |e2|) |s|) and terms with w^2; the tenth is far
+    /// more than those and the rounding of the bound itself take. Nothing under- or overflows:
+    /// products of three floats and of the bound stay within 2^-510 .. 2^400.
+    static double outside_bound(const Sizes& size) {
+        return 10.0 * 0x1p-53 * size.d * (size.e1 * size.e2 + (size.e1 + size.e2) * size.s);
+    }
+    /// Above the distance of an exact t of a certain hit from the ends t - slack and t + slack.
+    ///
+    /// With T and D exact, T' and det computed, |T / D - T' / det| <= (|T' - T| + |T' / det|
+    /// |det - D|) / |D|. T' has eight roundings: |T' - T| <= gamma(8) |e1||e2||s|, and |det - D| <=
+    /// gamma(7) |d||e1||e2|. Where outside(u, det) < -bound, half of |det| is above the bound, so
+    /// |D| > 13/20 |det|: at most 12.4 w |e1||e2||s| / |det| and 10.8 w |t||d||e1||e2| / |det|. The
+    /// roundings of the reciprocal, of t and of t - slack add 3 w |t|, and |det| <= |d||e1||e2| but
+    /// for roundings: 13.8 w of the second. `inverse` is 1 / det. A slack that overflows passes the
+    /// ray on; one that underflows stands beside a t far below the smallest float.
+    // [t_bound]
+    static double t_bound(const Sizes& size, double t, double inverse) {
+        return 14.0 * 0x1p-53 * size.e1 * size.e2 * (size.s + std::abs(t) * size.d) *
+               std::abs(inverse);
+    }
+    // [t_bound]
 
+  private:
     static double one_norm(const Double3& v) {
         return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     }
@@ -89,8 +113,11 @@ struct FilteredExact {
         return answer;
     }
 
+    // Not inlined: what is hardly ever run would make the loops around the filter long.
     template <class Stages>
-    static std::optional<Hit> by_integers(const Ray& ray, const Triangle& triangle, Stages& stages);
+    [[gnu::noinline]] static std::optional<Hit> by_integers(const Ray& ray,
+                                                            const Triangle& triangle,
+                                                            Stages& stages);
     template <class Stages>
     static std::optional<Hit> by_expansions(const Ray& ray, const Triangle& triangle,
                                             Stages& stages);
@@ -157,12 +184,11 @@ struct CommonScale {
     void cover(const Point3& p) {
         for (int axis = 0; axis < 3; ++axis) {
             if (p[axis] == 0.0f) continue;
-            const auto pattern = std::bit_cast<std::uint32_t>(p[axis]);
-            const std::uint32_t biased = (pattern >> 23) & 0xFF;
-            const std::uint32_t mantissa = (pattern & 0x7FFFFF) | (biased ? 0x800000u : 0u);
-            const int exponent = static_cast<int>(biased ? biased : 1) - 150;  // of the last place
-            lowest = std::min(lowest, exponent + std::countr_zero(mantissa));
-            highest = std::max(highest, exponent + static_cast<int>(std::bit_width(mantissa)));
+            int exponent = 0;  // a denormal float is a normal double
+            const auto mantissa = static_cast<std::uint32_t>(
+                std::abs(std::frexp(double{p[axis]}, &exponent)) * 0x1p24);
+            lowest = std::min(lowest, exponent - 24 + std::countr_zero(mantissa));
+            highest = std::max(highest, exponent);
         }
     }
     int bits() const { return std::max(highest - lowest, 0); }
@@ -187,10 +213,13 @@ std::optional<Hit> FilteredExact::by_integers(const Ray& ray, const Triangle& tr
     place.cover(triangle.b);
     place.cover(triangle.c);
     way.cover(ray.direction);
-    // Differences have one bit more; a volume has six terms, u + v - det eighteen: five bits more
-    // than its three factors. A sign bit is left.
+    // Differences have one bit more. A determinant of three rows with entries between -1 and 1 is
+    // between -4 and 4 (it is linear in each entry, so the worst have entries +-1). det, u, v, det
+    // - u and det - u - v are such determinants, their partial sums are some with zeros: two bits
+    // more than the three factors have. t needs one: three differences from one corner span at most
+    // twice the volume of the cube that holds them. There are 127 bits and a sign.
     const int edge_bits = place.bits() + 1;
-    if (2 * edge_bits + way.bits() + 5 > 126 || 3 * edge_bits + 3 > 126)
+    if (2 * edge_bits + way.bits() + 2 > 127 || 3 * edge_bits + 1 > 127)
         return by_expansions(ray, triangle, stages);
 
     const Exact3<Int128> a = place.scaled(triangle.a), b = place.scaled(triangle.b),
