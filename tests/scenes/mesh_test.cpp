@@ -162,17 +162,12 @@ TEST_CASE("a polygon that is not convex is cut inside its outline, whichever cor
     check(comb, twice_area(comb));
 }
 
-TEST_CASE("polygons without area and polygons that cross themselves keep all their triangles",
-          "[mesh]") {
+TEST_CASE("a polygon without area keeps its triangles, none of which can be hit", "[mesh]") {
     const test::Folder folder;
     const std::string line = "OFF\n5 1 0\n0 0 0\n1 1 1\n2 2 2\n3 3 3\n4 4 4\n5 0 1 2 3 4\n";
     const TriangleMesh flat = load_mesh(folder.write("line.off", line));
     CHECK(flat.faces.size() == 3);
     CHECK(count_degenerate(flat.triangles()) == 3);
-    const std::string star = "OFF\n5 1 0\n0 10 0\n6 -8 0\n-10 3 0\n10 3 0\n-6 -8 0\n5 0 1 2 3 4\n";
-    CHECK(load_mesh(folder.write("star.off", star)).faces.size() == 3);
-    const std::string bow = "OFF\n4 1 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n4 0 1 2 3\n";
-    CHECK(load_mesh(folder.write("bow.off", bow)).faces.size() == 2);
 }
 
 TEST_CASE("meshes append with their indices moved", "[mesh]") {
