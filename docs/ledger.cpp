@@ -60,11 +60,7 @@ std::vector<Claim> read_claims(const std::filesystem::path& file) {
 
 Answers read_answers(const std::filesystem::path& file) {
     return read_json(file, [](const nlohmann::json& document) {
-        Answers result{.chapter = document.at("chapter"),
-                       .machine = document.at("machine"),
-                       .date = document.at("date"),
-                       .small = document.at("small"),
-                       .answers = {}};
+        Answers result{.run = document.get<Provenance>(), .answers = {}};
         for (const auto& entry : document.at("answers"))
             result.answers.push_back({.claim = entry.at("claim"),
                                       .verdict = entry.at("verdict"),
@@ -111,7 +107,8 @@ std::filesystem::path newest_results(const std::filesystem::path& root,
                                      const std::filesystem::path& runs, int chapter) {
     const auto committed = root / fmt::format("figures/measured/ch{:02}_results.json", chapter);
     const auto own = runs / fmt::format("ch{:02}/results.json", chapter);
-    const bool own_counts = exists(own) && !read_answers(own).small;  // --small has no times
+    const std::string mode = exists(own) ? read_answers(own).run.mode : "";
+    const bool own_counts = mode == "full" || mode == "quick";  // --small has no times
     if (!exists(committed)) return own_counts ? own : std::filesystem::path{};
     return own_counts && last_write_time(own) > last_write_time(committed) ? own : committed;
 }

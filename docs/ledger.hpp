@@ -3,6 +3,8 @@
 /// measured.
 #pragma once
 
+#include "common/program/provenance.hpp"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -37,8 +39,7 @@ struct Answer {
 
 /// One results file.
 struct Answers {
-    std::string chapter, machine, date;
-    bool small = false;
+    Provenance run;
     std::vector<Answer> answers;
 };
 

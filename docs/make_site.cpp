@@ -40,9 +40,11 @@ void run_doxygen(const fs::path& work, const fs::path& site) {
     const std::string settings =
         read_file(fs::path(BOOK_DOXYFILE)) +
         fmt::format(
-            "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nEXAMPLE_PATH += \"{0}\"\n"
+            "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nFILE_PATTERNS += *.dox\n"
+            "EXCLUDE_PATTERNS += \"{2}/docs/*.dox\" \"{2}/chapters/*.dox\"\n"
+            "STRIP_FROM_PATH = \"{0}/texts\" \"{2}\"\nEXAMPLE_PATH += \"{0}\"\n"
             "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
-            work.string(), site.string());
+            work.string(), site.string(), BOOK_ROOT);
     write_file(work / "Doxyfile", settings);
     fs::create_directories(site);
     const std::string command =

@@ -3,6 +3,7 @@
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "docs/ledger.hpp"
+#include "docs/measured.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -313,10 +314,11 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
             answers = read_answers(file);
         sections += fmt::format("\\section claims_{} Chapter {}: {}\n", chapter.folder,
                                 chapter.number, chapter.title);
-        sections += raw(answers.machine.empty()
-                            ? "<p class=\"machine\">Not measured yet.</p>\n"
-                            : fmt::format("<p class=\"machine\">Measured on {}, on {}.</p>\n",
-                                          html(answers.machine), html(answers.date)));
+        sections += raw(fmt::format(
+            "<p class=\"machine\">{}</p>\n",
+            answers.run.mode.empty()
+                ? "Not measured yet."
+                : told(answers.run, source_fingerprints(places.root, answers.run.chapter))));
         for (const Claim* claim : mine) {
             const auto answer = std::ranges::find(answers.answers, claim->id, &Answer::claim);
             const bool answered = answer != answers.answers.end();
@@ -403,6 +405,22 @@ std::string html(std::string_view text) {
     return result;
 }
 
+/// The texts that people write, docs/*.dox and the chapters', with their measured numbers.
+void write_texts(const Places& places) {
+    Measured measured(places.root, places.runs);
+    const auto write_all = [&](const fs::path& folder) {
+        for (const auto& entry : fs::directory_iterator(places.root / folder)) {
+            if (entry.path().extension() != ".dox") continue;
+            const fs::path name = folder / entry.path().filename();
+            write_file(places.pages / "texts" / name,
+                       measured.resolved(read_file(entry.path()), name.string()));
+        }
+    };
+    write_all("docs");
+    for (const auto& entry : fs::directory_iterator(places.root / "chapters"))
+        if (entry.is_directory()) write_all("chapters" / entry.path().filename());
+}
+
 void write_pages(const Places& places) {
     const auto chapters = read_chapters(places.root);
     const auto claims = read_claims(places.root / "docs/claims.json");
@@ -416,6 +434,7 @@ void write_pages(const Places& places) {
     write("figures.dox", figures_page(chapters, figures));
     write("ledger.dox", ledger_page(places, chapters, claims));
     write("layout.xml", layout(places, chapters));
+    write_texts(places);
     for (const Figure& figure : figures) {
         if (figure.file.empty()) continue;  // Doxygen tells which page misses it
         write_file(places.pages / "images" / figure.file.filename(), read_file(figure.file));

@@ -16,7 +16,7 @@ struct Places {
     std::filesystem::path pages;       ///< where the generated pages go
 };
 
-/// Writes *.dox, layout.xml and images/ into places.pages.
+/// Writes *.dox, texts/, layout.xml and images/ into places.pages.
 /// @throws Error (bad_input) for a malformed list, exercise or results file, (bad_output)
 void write_pages(const Places& places);
 

@@ -1,9 +1,12 @@
 /// Chapter 1: naive ray tracing, Heinonen16's Algorithm 1 as printed and corrected, beside a
 /// rasteriser. Run   ch01_naive_ray_tracing --scene room --out pictures Draw ch01_naive_ray_tracing
 /// --figure fig_01_03 --out figures
+#include "chapters/ch01_naive_ray_tracing/coverage.hpp"
 #include "chapters/ch01_naive_ray_tracing/figures/figures.hpp"
 #include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
+#include "chapters/ch01_naive_ray_tracing/measured/outcome.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/report.hpp"
@@ -110,25 +113,24 @@ int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
     if (options.figure) return make_figures(chapter01_figures(), options);
     check_writable(options.out / "results.json");
-    const Effort effort = effort_of(options);
-    draw_pictures(options);
-    const std::vector<SceneCounts> counts = count_scenes(effort, options.seed, options.threads);
-    print_counts(counts);
-
-    const std::vector<GrowthPoint> growth = measure_growth(effort, options.seed);
-    const std::vector<SharePoint> shares = measure_shares(effort, options.seed);
-    const Results results{"ch01_naive_ray_tracing", options.small,
-                          answer_claims(counts, growth, shares)};
-    write_results(options.out / "results.json", results);
-    const bool agree = std::all_of(counts.begin(), counts.end(),
-                                   [](const auto& s) { return s.coverage.unexplained == 0; });
+    if (!options.counts) draw_pictures(options);
+    const Measurements measured = measure(options);
+    print_counts(measured.counts);
+    const Provenance run = provenance("ch01_naive_ray_tracing", options);
+    quoted(measured).write(options.out, run);
+    const bool agree = std::ranges::all_of(
+        measured.counts, [](const auto& scene) { return scene.unexplained == 0; });
     const int exit_code = static_cast<int>(agree ? ExitCode::ok : ExitCode::wrong_answer);
-    if (effort == Effort::small) return exit_code;  // times are no test's business
+    if (options.counts) return exit_code;
 
-    print_times(growth, shares);
-    write_chart(options.out, growth_chart(growth));
-    write_chart(options.out, share_chart(shares));
-    write_chart(options.out, accuracy_chart(options));
+    const Results results{run, answer_claims(measured)};
+    write_results(options.out / "results.json", results);
+    if (options.small) return exit_code;  // times are no test's business
+
+    print_times(measured.growth, measured.shares);
+    write_chart(options.out, growth_chart(measured.growth));
+    write_chart(options.out, share_chart(measured.shares));
+    write_chart(options.out, accuracy_chart(measured.leaks));
     print_heading("The sources' claims");
     for (const ClaimAnswer& answer : results.answers)
         fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);

@@ -28,7 +28,7 @@ int run(int argc, char** argv) {
     print_boxes_and_spheres(measured);
     print_bounces(measured);
 
-    const Results results{"ch02_intersection_tests", options.small, answer_claims(measured)};
+    const Results results{provenance("ch02_intersection_tests", options), answer_claims(measured)};
     write_results(options.out / "results.json", results);
     if (options.small) return 0;  // times are no test's business
 

@@ -124,7 +124,7 @@ int run(int argc, char** argv) {
     print_growth(measured.growth = measure_growth(options), times);
     wrong += wrong_answers(measured);
 
-    const Results results{"ch03_bsp_trees", options.small, answer_claims(measured)};
+    const Results results{provenance("ch03_bsp_trees", options), answer_claims(measured)};
     write_results(options.out / "results.json", results);
     if (times) {
         for (const Chart& chart : {fragments_chart(measured.growth), build_chart(measured.growth),

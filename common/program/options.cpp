@@ -93,7 +93,12 @@ Options parse_options(int argc, char** argv, const ProgramInfo& program,
                  "a small run that prints counts only: the same on every machine");
     app.add_flag("--quick", options.quick,
                  "fewer sizes and rounds: minutes instead of a quarter of an hour");
-    app.add_option("--out", options.out, "directory for pictures, charts and results.json")
+    app.add_flag("--counts", options.counts,
+                 "the full run's counts, without its times: numbers.json and tables")
+        ->excludes("--small")
+        ->excludes("--quick");
+    app.add_option("--out", options.out,
+                   "directory for pictures, charts, tables, numbers and results")
         ->capture_default_str();
     app.add_option("--figure", options.figure, "make one figure, or 'all', into --out and end");
     add_common_options(app, options);

@@ -21,6 +21,7 @@ struct Options {
     std::string scene = {};  ///< --scene NAME, NAME:SIZE or FILE
     bool small = false;      ///< --small: counts only, in a second or two; what the tests run
     bool quick = false;      ///< --quick: fewer sizes and rounds
+    bool counts = false;     ///< --counts: the book's counts in full, and no times
     std::filesystem::path out = ".";  ///< --out DIR: pictures, figures, results
     unsigned threads = 0;           ///< --threads N; parse_options turns 0 into the machine's count
     std::uint64_t seed = 1;         ///< --seed S

@@ -25,19 +25,20 @@ void Table::row(std::vector<std::string> cells) {
     rows_.push_back(std::move(cells));
 }
 
+bool Table::is_numeric(std::size_t column) const {
+    return !rows_.empty() && std::ranges::all_of(rows_, [&](const auto& row) {
+        return row[column].empty() || row[column] == "-" || looks_like_number(row[column]);
+    });
+}
+
 std::string Table::text() const {
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t column = 0; column < headings_.size(); ++column) {
         std::size_t width = shown_width(headings_[column]);
-        bool numbers = !rows_.empty();
-        for (const auto& row : rows_) {
-            width = std::max(width, shown_width(row[column]));
-            numbers = numbers &&
-                      (row[column].empty() || row[column] == "-" || looks_like_number(row[column]));
-        }
+        for (const auto& row : rows_) width = std::max(width, shown_width(row[column]));
         widths.push_back(width);
-        numeric.push_back(numbers);
+        numeric.push_back(is_numeric(column));
     }
     const auto line = [&](const std::vector<std::string>& cells) {
         std::string result;
@@ -53,6 +54,18 @@ std::string Table::text() const {
     std::vector<std::string> rule;
     for (const std::size_t width : widths) rule.push_back(std::string(width, '-'));
     result += line(rule);
+    for (const auto& row : rows_) result += line(row);
+    return result;
+}
+
+std::string Table::markdown() const {
+    const auto line = [](const std::vector<std::string>& cells) {
+        return fmt::format("| {} |\n", fmt::join(cells, " | "));
+    };
+    std::vector<std::string> rule;
+    for (std::size_t column = 0; column < headings_.size(); ++column)
+        rule.emplace_back(is_numeric(column) ? "--:" : "---");
+    std::string result = line(headings_) + line(rule);
     for (const auto& row : rows_) result += line(row);
     return result;
 }

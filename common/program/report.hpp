@@ -15,9 +15,12 @@ class Table {
     explicit Table(std::vector<std::string> headings) : headings_(std::move(headings)) {}
     void row(std::vector<std::string> cells);
     std::string text() const;
+    std::string markdown() const;
     void print() const;  ///< to stdout
 
   private:
+    bool is_numeric(std::size_t column) const;
+
     std::vector<std::string> headings_;
     std::vector<std::vector<std::string>> rows_;
 };

@@ -3,6 +3,8 @@
 /// charts.
 #pragma once
 
+#include "common/program/provenance.hpp"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,17 +26,11 @@ struct ClaimAnswer {
         rule;  ///< how the verdict follows from the number, such as "slope within 0.9 .. 1.1"
 };
 
-/// Collected by a chapter's program, written once at its end as JSON with the machine and the date.
+/// Collected by a chapter's program, written once at its end as JSON.
 struct Results {
-    std::string chapter;  ///< "ch01_naive_ray_tracing"
-    bool small = false;   ///< made with --small: counts are right, times mean nothing
+    Provenance run;
     std::vector<ClaimAnswer> answers;
 };
-
-/// Processor name, cores, compiler: what a measurement must be read with.
-std::string machine_description();
-/// Today as YYYY-MM-DD; SOURCE_DATE_EPOCH is honoured.
-std::string today();
 
 /// @throws Error (bad_output)
 void write_results(const std::filesystem::path& file, const Results& results);

@@ -16,17 +16,16 @@ TEST_CASE("the results file holds every answer, the machine and the date") {
     const auto file = directory.path() / "out" / "results.json";
     ::setenv("SOURCE_DATE_EPOCH", "951782400", 1);  // 2000-02-29 00:00:00 UTC
     write_results(file,
-                  {.chapter = "ch00_test",
-                   .small = true,
+                  {.run = provenance("ch00_test", {.small = true}),
                    .answers = {{"H1", Verdict::confirmed, "slope 1.0", "soup", "0.9 .. 1.1"},
                                {"H2", Verdict::refuted, "a \"quote\" and Möller", "bunny", "r"},
                                {"P1", Verdict::depends, "", "", ""}}});
     ::unsetenv("SOURCE_DATE_EPOCH");
 
     const auto json = nlohmann::json::parse(read_file(file));
-    CHECK(json.size() == 5);
+    CHECK(json.size() == 6);
     CHECK(json["chapter"] == "ch00_test");
-    CHECK(json["small"] == true);
+    CHECK(json["mode"] == "small");
     CHECK(json["machine"] == machine_description());
     CHECK(json["date"] == "2000-02-29");
     REQUIRE(json["answers"].size() == 3);
@@ -55,8 +54,7 @@ TEST_CASE("today is a date") {
 }
 
 TEST_CASE("results that cannot be written are an error") {
-    CHECK_THROWS_AS(write_results("/proc/none/results.json", {.chapter = "x", .answers = {}}),
-                    Error);
+    CHECK_THROWS_AS(write_results("/proc/none/results.json", {.run = {}, .answers = {}}), Error);
 }
 
 }  // namespace space

@@ -19,10 +19,7 @@ const std::vector<Claim> claims{
     {.id = "H4", .source = "S", .note = "", .text = "log n", .chapters = {3}, .how = ""}};
 
 Answers good() {
-    return {.chapter = "ch01",
-            .machine = "m",
-            .date = "d",
-            .small = false,
+    return {.run = {.chapter = "ch01", .mode = "full", .machine = "m", .date = "d"},
             .answers = {{.claim = "H1",
                          .verdict = "confirmed",
                          .measured = "1.0",
@@ -80,7 +77,7 @@ TEST_CASE("measured value, scene and rule are said") {
 
 TEST_CASE("what a program writes is what the ledger reads") {
     const auto file = std::filesystem::temp_directory_path() / "splitting_space_ledger_test.json";
-    Results results{.chapter = "ch01_naive_ray_tracing", .small = true, .answers = {}};
+    Results results{.run = provenance("ch01_naive_ray_tracing", {.small = true}), .answers = {}};
     for (const Verdict verdict : {Verdict::confirmed, Verdict::refuted, Verdict::depends})
         results.answers.push_back({.claim = "H1",
                                    .verdict = verdict,
@@ -91,7 +88,7 @@ TEST_CASE("what a program writes is what the ledger reads") {
     const Answers answers = read_answers(file);
     std::filesystem::remove(file);
     REQUIRE(answers.answers.size() == 3);
-    CHECK(answers.small);
+    CHECK(answers.run.mode == "small");
     CHECK(answers.answers[0].measured == "\"1\" < 2");
     CHECK(faults(claims, 1, answers).size() ==
           1);  // three answers to one claim; all three words are verdicts

@@ -3,6 +3,7 @@
 #include "chapters/ch01_naive_ray_tracing/coordinate_systems.hpp"
 #include "chapters/ch01_naive_ray_tracing/coverage.hpp"
 #include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
+#include "chapters/ch01_naive_ray_tracing/measured/outcome.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/measure.hpp"
@@ -466,45 +467,18 @@ void fig_01_05(const Options& options) {
 // 1.6, 1.7 Times
 
 void fig_01_06(const Options& options) {
-    write_chart(options.out, growth_chart(measure_growth(effort_of(options), options.seed)));
+    write_chart(options.out, growth_chart(measure_growth(options)));
 }
 
 void fig_01_07(const Options& options) {
-    write_chart(options.out, share_chart(measure_shares(effort_of(options), options.seed)));
+    write_chart(options.out, share_chart(measure_shares(options)));
 }
 
 // -------------------------------------------------------------------------------------------------
 // 1.8 Speed and accuracy: float and double
 
-/// Rays from outside at vertices of the unit icosphere, well inside its outline. They end before
-/// its far side, so that each must hit the near side: one that hits nothing slipped through a
-/// closed surface.
-std::vector<Ray> rays_at_vertices(const TriangleMesh& sphere, std::size_t count,
-                                  std::uint64_t seed) {
-    Pcg32 random(seed);
-    std::vector<Ray> rays;
-    while (rays.size() < count) {
-        const Point3 origin = random_point(random, -3.0f, 3.0f);
-        const Point3& vertex =
-            sphere.vertices[random.below(static_cast<std::uint32_t>(sphere.vertices.size()))];
-        const Vector3 direction = vertex - origin;
-        // Seen at less than 60 degrees from the normal: the way through the sphere is longer than
-        // its radius.
-        if (glm::dot(direction, vertex) < -0.5f * glm::length(direction))
-            rays.push_back({origin, direction, 0.0f, 1.1f});
-    }
-    return rays;
-}
-
-template <class Real>
-std::size_t count_leaks(std::span<const Triangle> triangles, std::span<const Ray> rays) {
-    const auto naive = Naive<BasicMollerTrumbore<Real>>::build(triangles);
-    return static_cast<std::size_t>(std::count_if(
-        rays.begin(), rays.end(), [&](const Ray& ray) { return !closest_hit(naive, ray); }));
-}
-
 void fig_01_08(const Options& options) {
-    write_chart(options.out, accuracy_chart(options));
+    write_chart(options.out, accuracy_chart(measure_leaks(options)));
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -531,31 +505,6 @@ constexpr Figure figures[] = {
 };
 
 }  // namespace
-
-Chart accuracy_chart(const Options& options) {
-    const Effort effort = effort_of(options);
-    const Scene scene = make_scene("icosphere:12");
-    const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const std::vector<Ray> rays =
-        rays_at_vertices(scene.mesh, effort == Effort::full ? 20'000 : 2'000, options.seed);
-    std::size_t leaks_float = 0, leaks_double = 0;
-    const std::array<std::function<void()>, 2> candidates{
-        [&] { leaks_float = count_leaks<float>(triangles, rays); },
-        [&] { leaks_double = count_leaks<double>(triangles, rays); }};
-    const std::vector<double> ms = interleaved_medians(candidates, effort == Effort::full ? 5 : 3);
-    const auto per_10000 = [&](std::size_t leaks) {
-        return 1e4 * static_cast<double>(leaks) / static_cast<double>(rays.size());
-    };
-    return {.id = "fig_01_08",
-            .title = "Time and leaks of the same ray-triangle test in float and in double",
-            .x_label = "rays of 10,000 aimed at vertices that slip through",
-            .y_label = "time (double = 1)",
-            .kind = ChartKind::points,
-            .series = {{.name = "M\u00f6ller\u2013Trumbore",
-                        .x = {per_10000(leaks_float), per_10000(leaks_double)},
-                        .y = {ms[0] / ms[1], 1.0},
-                        .labels = {"float", "double"}}}};
-}
 
 std::span<const Figure> chapter01_figures() {
     return figures;

@@ -1,0 +1,122 @@
+#include "chapters/ch01_naive_ray_tracing/measured/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace space::ch01 {
+namespace {
+
+/// confirmed where all scenes agree, refuted where none does.
+Verdict over_scenes(std::size_t agree, std::size_t scenes) {
+    return agree == scenes ? Verdict::confirmed : agree == 0 ? Verdict::refuted : Verdict::depends;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
+    const auto& [counts, leaks, growth, shares] = measured;
+    const auto linear = [](double slope) { return slope >= 0.9 && slope <= 1.1; };
+
+    // H1 and P1: growth.
+    std::vector<std::string> naive_slopes, rasteriser_slopes;
+    std::size_t naive_linear = 0, rasteriser_linear = 0;
+    const std::vector<std::string> grown = scenes_of(growth);
+    for (const std::string& scene : grown) {
+        const Slopes slope = slopes(growth, scene);
+        naive_slopes.push_back(fmt::format("{} {:.2f}", scene, slope.naive));
+        rasteriser_slopes.push_back(fmt::format("{} {:.2f} ({:.2f} over all)", scene,
+                                                slope.rasteriser_last, slope.rasteriser));
+        naive_linear += linear(slope.naive);
+        rasteriser_linear += slope.rasteriser_last >= 0.8 && slope.rasteriser_last <= 1.2;
+    }
+    const auto [least, most] =
+        std::minmax_element(growth.begin(), growth.end(),
+                            [](const auto& a, const auto& b) { return a.triangles < b.triangles; });
+    const std::string range = fmt::format("{}; {} to {} triangles", joined(grown),
+                                          with_commas(static_cast<std::uint64_t>(least->triangles)),
+                                          with_commas(static_cast<std::uint64_t>(most->triangles)));
+
+    // H2: the share.
+    const auto [lowest, highest] =
+        std::minmax_element(shares.begin(), shares.end(),
+                            [](const auto& a, const auto& b) { return a.share() < b.share(); });
+    std::size_t steps = 0, rises = 0;
+    std::vector<double> rest_slopes;
+    for (const std::string& scene : scenes_of(shares)) {
+        const std::vector<SharePoint> points = of_scene(shares, scene);
+        for (std::size_t i = 1; i < points.size(); ++i, ++steps)
+            rises += points[i].share() > points[i - 1].share();
+        rest_slopes.push_back(share_slopes(shares, scene).rest);
+    }
+    const auto [flattest, steepest] = std::minmax_element(rest_slopes.begin(), rest_slopes.end());
+    const Verdict share_verdict = highest->share() < 0.90    ? Verdict::refuted
+                                  : highest->share() <= 0.97 ? Verdict::confirmed
+                                                             : Verdict::depends;
+
+    // H3 and H14: counts.
+    Winding winding;
+    std::uint64_t hits = 0, printed = 0, reversed = 0;
+    std::size_t erasing = 0;
+    std::vector<std::string> counted;
+    for (const SceneCounts& scene : counts) {
+        winding.triangles += scene.winding.triangles;
+        winding.flipped += scene.winding.flipped;
+        winding.kept += scene.winding.kept;
+        hits += scene.hits;
+        printed += scene.hits_as_printed;
+        reversed += scene.hits_in_reverse;
+        erasing += scene.hits_as_printed < scene.hits;
+        counted.push_back(scene.scene);
+    }
+    const bool flips = winding.flipped == winding.triangles && winding.kept == winding.triangles;
+
+    return {
+        {"H1", over_scenes(naive_linear, grown.size()),
+         fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
+         "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on "
+         "every scene, refuted "
+         "if "
+         "on none"},
+        {"H2", share_verdict,
+         fmt::format(
+             "from {:.1f} % ({}, {} triangles) to {:.4f} % ({}, {} triangles); from one size "
+             "of a scene to the next the share rises {} of {} times; log-log slopes of "
+             "the time without tests: {:.2f} to {:.2f}",
+             100.0 * lowest->share(), lowest->scene,
+             with_commas(static_cast<std::uint64_t>(lowest->triangles)), 100.0 * highest->share(),
+             highest->scene, with_commas(static_cast<std::uint64_t>(highest->triangles)), rises,
+             steps, *flattest, *steepest),
+         joined(scenes_of(shares)),
+         "confirmed if the largest share is within 90 .. 97 %, depends (on the number of "
+         "triangles) if it is larger, "
+         "refuted if it is smaller"},
+        {"H3", flips ? Verdict::confirmed : Verdict::refuted,
+         fmt::format("of {} triangles {} flip when two vertices are exchanged, {} keep their side "
+                     "when the vertices are "
+                     "turned in a circle",
+                     with_commas(winding.triangles), with_commas(winding.flipped),
+                     with_commas(winding.kept)),
+         joined(counted), "confirmed if all triangles do both"},
+        {"H14", over_scenes(erasing, counts.size()),
+         fmt::format("of {} pixels that hit something {} still show it as printed, {} with the "
+                     "triangles in reverse order",
+                     with_commas(hits), with_commas(printed), with_commas(reversed)),
+         joined(counted),
+         "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, "
+         "refuted if on none"},
+        {"P1", over_scenes(rasteriser_linear, grown.size()),
+         fmt::format("log-log slopes between the two largest sizes: {}", joined(rasteriser_slopes)),
+         range,
+         "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is "
+         "within 0.8 .. 1.2 on "
+         "every "
+         "scene, refuted if on none"},
+    };
+}
+
+}  // namespace space::ch01

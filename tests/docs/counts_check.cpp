@@ -1,0 +1,68 @@
+/// Are the counts in figures/measured those that the program gives now? Runs a chapter's program
+/// with --counts and compares every count and every table of counts with the committed ones: a line
+/// per difference. Run   counts_check ROOT PROGRAM OUT
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace space;
+
+/// "numbers" or "tables" of a numbers.json, those that are counts; a table as its Markdown.
+std::map<std::string, std::string> counts_in(const fs::path& file, const std::string& kind,
+                                             const std::string& tables_as) {
+    std::map<std::string, std::string> counts;
+    const auto document = nlohmann::json::parse(read_file(file));
+    for (const auto& [name, entry] : document.at(kind).items())
+        if (entry.at("count"))
+            counts[name] = kind == "numbers"
+                               ? entry.at("text").get<std::string>()
+                               : read_file(file.parent_path() / (tables_as + name + ".md"));
+    return counts;
+}
+
+int check(int argc, char** argv) {
+    if (argc != 4) throw usage_error("expected ROOT PROGRAM OUT");
+    const fs::path root = argv[1], program = argv[2], out = argv[3];
+    const std::string chapter = program.filename().string().substr(0, 4);
+    fs::remove_all(out);
+    const std::string command =
+        fmt::format("\"{}\" --counts --out \"{}\" > /dev/null", program.string(), out.string());
+    if (std::system(command.c_str()) != 0) throw input_error(fmt::format("{} failed", command));
+    const fs::path measured = root / "figures/measured" / (chapter + "_numbers.json");
+    int compared = 0, wrong = 0;
+    for (const char* kind : {"numbers", "tables"}) {
+        const auto then = counts_in(measured, kind, chapter + "_"),
+                   now = counts_in(out / "numbers.json", kind, chapter + "_");
+        for (const auto& [name, text] : now) {
+            ++compared;
+            const auto committed = then.find(name);
+            if (committed != then.end() && committed->second == text) continue;
+            ++wrong;
+            fmt::print("{}.{}: figures/measured has {}\nbut the program gives {}\n", chapter, name,
+                       committed == then.end() ? "nothing" : committed->second, text);
+        }
+        for (const auto& [name, text] : then)
+            if (!now.contains(name)) {
+                ++wrong;
+                fmt::print("{}.{}: the program gives none\n", chapter, name);
+            }
+    }
+    fmt::print(
+        "{} counts compared, {} differ{}\n", compared, wrong,
+        wrong ? fmt::format("; ./book run {} --update measures anew", chapter.substr(2)) : "");
+    return static_cast<int>(wrong == 0 && compared > 0 ? ExitCode::ok : ExitCode::wrong_answer);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program("counts_check", check, argc, argv);
+}
