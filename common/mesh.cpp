@@ -77,6 +77,7 @@ void TriangleMesh::append(const TriangleMesh& other) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
     for (const auto& [a, b, c] : other.faces) faces.push_back({first + a, first + b, first + c});
+    remarks.insert(remarks.end(), other.remarks.begin(), other.remarks.end());
 }
 
 Aabb bounds(const TriangleMesh& mesh) {

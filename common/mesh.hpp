@@ -25,7 +25,7 @@ struct TriangleMesh {
     }
     /// All triangles, in the order of the faces: what structures are built from.
     std::vector<Triangle> triangles() const;
-    /// Appends the other mesh's vertices and faces.
+    /// Appends the other mesh's vertices, faces and remarks.
     void append(const TriangleMesh& other);
 };
 

@@ -96,7 +96,7 @@ void OffReader::take_counts() {
 /// line. Faces need lines of their own, too, else a line holds several vertices.
 bool OffReader::stand_in_lines(bool faces) const {
     std::string_view ahead = rest;
-    for (std::int64_t i = 0; i < counts[faces]; ++i) {
+    for (std::int64_t i = 0; i < counts[faces ? 1 : 0]; ++i) {
         std::string_view line = take_off_line(ahead);
         std::int64_t words = 3;
         if (faces && !parse_integer(take_word(line), words)) return !line.empty();

@@ -211,7 +211,7 @@ struct PlyBody {
     double number(std::string_view raw, const PlyType& type) const;
     std::size_t take_length(const PlyProperty& property);
     double coordinate(std::string_view raw, const PlyType& type) const;
-    std::int64_t index(std::string_view raw, const PlyType& type) const;
+    std::int64_t index(std::string_view raw, const PlyType& type, double lowest) const;
 
     void check_promise() const;
     void read_item();
@@ -261,8 +261,9 @@ std::size_t PlyBody::take_length(const PlyProperty& property) {
     const std::string_view raw = take(*property.length);
     const double length = number(raw, *property.length);
     if (length < 0) fail(raw, fmt::format("a list of negative length, {}", length));
-    const std::size_t fewest_bytes = is_text() ? 2 : property.type->bytes;  // a digit and a blank
-    if (!(length * double(fewest_bytes) <= double(rest.size() + 1)) || length != std::floor(length))
+    // In text an entry takes a digit and a blank, which the last one may lack.
+    const double bytes = is_text() ? 2 * length - 1 : length * double(property.type->bytes);
+    if (!(bytes <= double(rest.size())) || length != std::floor(length))
         fail(raw, fmt::format("a list of {} does not fit into the {} bytes that are left", length,
                               rest.size()));
     return static_cast<std::size_t>(length);
@@ -276,9 +277,9 @@ double PlyBody::coordinate(std::string_view raw, const PlyType& type) const {
     return value;
 }
 
-std::int64_t PlyBody::index(std::string_view raw, const PlyType& type) const {
+std::int64_t PlyBody::index(std::string_view raw, const PlyType& type, double lowest) const {
     const double value = number(raw, type);
-    if (!(value >= -1.0 && value < double(header.vertices)) || value != std::floor(value))
+    if (!(value >= lowest && value < double(header.vertices)) || value != std::floor(value))
         fail(raw,
              fmt::format("vertex index {}, but the file has {} vertices", value, header.vertices));
     return static_cast<std::int64_t>(value);
@@ -286,15 +287,10 @@ std::int64_t PlyBody::index(std::string_view raw, const PlyType& type) const {
 
 void PlyBody::read_face(const PlyProperty& corners) {
     const std::size_t count = take_length(corners);
-    if (count < 3) fail(rest, fmt::format("has {} corners, a face needs three or more", count));
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::string_view raw = take(*corners.type);
-        const std::int64_t corner = index(raw, *corners.type);
-        if (corner < 0)
-            fail(raw, fmt::format("vertex index {}, but the file has {} vertices", corner,
-                                  header.vertices));
-        mesh.corners.push_back(static_cast<std::uint32_t>(corner));
-    }
+    if (count < 3) fail(rest, fmt::format("{} corners, but a face needs three or more", count));
+    for (std::size_t i = 0; i < count; ++i)
+        mesh.corners.push_back(
+            static_cast<std::uint32_t>(index(take(*corners.type), *corners.type, 0)));
     mesh.end_face();
 }
 
@@ -302,20 +298,17 @@ void PlyBody::read_face(const PlyProperty& corners) {
 void PlyBody::read_strip(const PlyProperty& corners) {
     const std::size_t count = take_length(corners);
     std::array<std::uint32_t, 2> before{};
-    std::size_t length = 0;
+    std::size_t length = 0;  // since the start
     for (std::size_t i = 0; i < count; ++i) {
-        const std::int64_t corner = index(take(*corners.type), *corners.type);
+        const std::int64_t corner = index(take(*corners.type), *corners.type, -1);
         if (corner < 0) {
             length = 0;
             continue;
         }
         const auto last = static_cast<std::uint32_t>(corner);
         if (length >= 2) {
-            const auto [a, b] = before;
-            if (length % 2 == 0)
-                mesh.corners.insert(mesh.corners.end(), {a, b, last});
-            else
-                mesh.corners.insert(mesh.corners.end(), {b, a, last});
+            const bool turned = length % 2 == 1;
+            mesh.corners.insert(mesh.corners.end(), {before[turned], before[!turned], last});
             mesh.end_face();
         }
         before = {before[1], last};

@@ -50,12 +50,15 @@ Number number_at(const std::string& bytes, std::size_t place) {
     return number;
 }
 
-/// The contents decide, since binary files may begin with "solid" too: a count below 2^24, a normal
-/// of zero or an attribute of zero holds bytes that no text does.
+/// The contents decide, since binary files may begin with "solid" too. Where text would go on stand
+/// the count, whose highest byte is 0 below 2^24 triangles (0.8 GB), and the first normal; no text
+/// holds such bytes.
 bool is_binary(const Source& source) {
-    const std::string_view start = source.view().substr(0, header + record);
-    return std::any_of(start.begin(), start.end(),
-                       [](char c) { return is_blank(c) && (c < '\t' || c > '\r') && c != ' '; });
+    const std::string_view bytes = source.view();
+    const std::string_view count =
+        bytes.size() < header ? bytes : bytes.substr(count_at, header - count_at + normal);
+    return std::any_of(count.begin(), count.end(),
+                       [](char c) { return is_blank(c) && c != ' ' && (c < '\t' || c > '\r'); });
 }
 
 /// Where the last triangle ends if each is followed by as many bytes as its attribute says; nothing

@@ -159,7 +159,7 @@ bool cut_simply(const Outline& outline, std::vector<std::array<std::uint32_t, 3>
 
 }  // namespace
 
-TriangleMesh triangulate(const Source& source, Polygons&& polygons) {
+TriangleMesh triangulate(const Source& source, Polygons polygons) {
     TriangleMesh mesh;
     Tessellator tessellator(polygons);
     std::size_t crossed = 0, empty = 0;

@@ -11,6 +11,6 @@ namespace space::mesh_reader {
 /// outline encloses (even-odd rule), corners are the same where their *positions* in the file are.
 /// So holes stay open that a bridge joins to the outline, walked twice; where an outline crosses
 /// itself the crossing becomes a vertex of its own. Faces and triangles keep the file's order.
-TriangleMesh triangulate(const Source& source, Polygons&& polygons);
+TriangleMesh triangulate(const Source& source, Polygons polygons);
 
 }  // namespace space::mesh_reader

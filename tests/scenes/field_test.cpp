@@ -335,6 +335,7 @@ TEST_CASE("STL as text: its words in any case, glued, split, doubled", "[mesh]")
         {"nan_normal.stl", replaced(stl, "normal 0 0 0", "normal nan -1.#IND x")},
         {"no_normal.stl", replaced(stl, "normal 0 0 0\n", "normal\n")},
         {"control_z.stl", stl + "\x1a"},
+        {"nul_in_the_name.stl", "solid tent" + std::string(20, '\0') + stl.substr(10)},
     });
     const test::Folder folder;
     CHECK(complaint(folder.write("a.stl", "solid a\n" + facets() + stl))

@@ -191,7 +191,7 @@ TEST_CASE("each fault of a file is told in one line that names the file, the pla
          "face 0: vertex index -1"},
         {"two.ply",
          ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "2 0 1\n",
-         "face 0: has 2 corners"},
+         ":13: face 0: 2 corners, but a face needs three"},
         {"long_list.ply",
          ply_head + "element vertex 3\n" + xyz + "element face 1\n" + list + points + "256 0 1 2\n",
          "a list of 256 does not fit"},
@@ -220,6 +220,11 @@ TEST_CASE("each fault of a file is told in one line that names the file, the pla
         {"minus_list.ply",
          binary_ply("binary_little_endian", 3, 1, little_points + bytes(-1) + bytes(0), "int"),
          "negative length"},
+        {"one_byte_short.ply",
+         "ply\nformat binary_little_endian 1.0\nelement vertex 3\n" + xyz +
+             "element face 1\nproperty list uchar uchar flags\n" + list + little_points + "\x0e" +
+             little_face,
+         "face 0: a list of 14 does not fit into the 13 bytes that are left"},
         {"far_index.ply",
          binary_ply("binary_little_endian", 3, 1,
                     little_points + std::string("\3") + bytes(0) + bytes(1) + bytes(3)),
