@@ -130,19 +130,25 @@ struct SlabSafe {
 /// large: SlabSafe with two reciprocals, one a little short of 1 / d for the near planes, one a
 /// little beyond it for the far planes.
 ///
-/// A computed t carries four roundings, each by a factor of 1 +- u, u = 2^-24: the difference, the
-/// reciprocal, its shortening (or lengthening) and the product. (1 + u)^4 (1 - 5 u) < 1 < (1 - u)^4
-/// (1 + 6 u), so the computed t is never farther from 0 than the exact one at a near plane, and
-/// never nearer at a far plane (Ize 2013, JCGT 2:2, lengthens the far one alone). That is the safe
-/// side for t >= 0; where the exact t is negative the computed one is, too, and either counts as
-/// little as the other as long as tmin >= 0. A product below 2^-126 is off by half the smallest
-/// float more; `tiny` covers that at both ends. Rays with tmin < 0 or with a reciprocal that is not
-/// a normal float, |d| < 2^-128 or |d| > 2^126, take the double path, where none of this matters.
-/// Coordinates are at most 2^126, so that no difference overflows.
+/// A computed t carries four roundings, each by a factor of 1 +- w, w = 2^-24: the difference, the
+/// reciprocal, its shortening (or lengthening) and the product. (1 + w)^4 (1 - 4 w) < 1 < (1 - w)^4
+/// (1 + 6 w), so the computed t is never farther from 0 than the exact one at a near plane, and
+/// never nearer at a far plane. (The float before 1 + 6 w is 1 + 4 w. It would do, but only because
+/// no reciprocal is rounded down by all of w.) That is the safe side for t >= 0; where the exact t
+/// is negative the computed one is, too, and either counts as little as the other as long as tmin
+/// >= 0. A product below 2^-126 is off by half the smallest float more; `tiny` covers that at both
+/// ends. Rays with tmin < 0 or with a reciprocal that is not a normal float, |d| < 2^-128 or |d| >
+/// 2^126, take the double path, where none of this matters. Coordinates are at most 2^126, so that
+/// no difference overflows.
+///
+/// Ize 2013 (JCGT 2:2) widens at one end only, `far` by a factor for both. The code that follows it
+/// takes 1.00000024, which is 1 + 4 w: too little, a test has the ray. 1 + 6 w is enough: with
+/// three roundings in each, near and far are apart by at most (1 + 2 w)^3 < 1 + 6 w + 13 w^2, and
+/// the product with the factor, rounded to a float, cannot end below the float `near` for that.
 struct SlabConservative {
-    static constexpr float shorten = 1.0f - 5.0f * 0x1p-24f;
+    static constexpr float shorten = 1.0f - 4.0f * 0x1p-24f;
     static constexpr float lengthen = 1.0f + 6.0f * 0x1p-24f;
-    static constexpr float tiny = 2.0f * std::numeric_limits<float>::denorm_min();
+    static constexpr float tiny = std::numeric_limits<float>::denorm_min();
 
     /// The ray with its reciprocals, for many boxes.
     struct Prepared : PreparedBoxRay {
@@ -186,7 +192,9 @@ struct SlabConservative {
 
   private:
     static std::optional<Interval> in_double(const Prepared& ray, const Aabb& box) {
-        constexpr double double_margin = 4.0 * 0x1p-53;  // two roundings: difference and quotient
+        // Two roundings in each, difference and quotient, can put near (1 + 2^-53)^4 beyond far.
+        // Against the ends of the ray's interval they do nothing: tmax d is a double.
+        constexpr double margin = 5.0 * 0x1p-53;
         double near = -infinity, far = infinity;
         for (int axis = 0; axis < 3; ++axis) {
             const double low = double{box.min[axis]} - ray.origin[axis],
@@ -199,9 +207,8 @@ struct SlabConservative {
             near = std::max(near, std::min(t0, t1));
             far = std::min(far, std::max(t0, t1));
         }
-        near -= double_margin * std::abs(near);
-        far += double_margin * std::abs(far);
-        if (!(near <= far && near <= ray.tmax && far >= ray.tmin)) return std::nullopt;
+        if (!(near <= far + margin * std::abs(far) && near <= ray.tmax && far >= ray.tmin))
+            return std::nullopt;
         return Interval{std::max(ray.tmin, std::nextafter(static_cast<float>(near), -infinity)),
                         std::min(ray.tmax, std::nextafter(static_cast<float>(far), infinity))};
     }

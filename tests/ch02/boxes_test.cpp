@@ -10,6 +10,7 @@
 #include <gmpxx.h>
 
 #include <bit>
+#include <cstdio>
 #include <functional>
 
 namespace space::ch02 {
@@ -272,6 +273,160 @@ TEST_CASE("rounding makes the safe test miss a corner that the conservative one 
     CHECK_FALSE(SlabReciprocal::intersect(ray, box));
     CHECK_FALSE(SlabSafe::intersect(ray, box));
     CHECK(SlabConservative::intersect(ray, box));
+}
+
+/// The ends of the slab from `low` to `high` across the x axis for the ray from x = o in the
+/// direction d, by the conservative test.
+Interval slab_ends(float o, float d, float low, float high) {
+    const auto found =
+        SlabConservative::intersect({{o, 0, 0}, {d, 0, 0}}, {{low, -1, -1}, {high, 1, 1}});
+    REQUIRE(found);
+    return *found;
+}
+/// (t - exact t) / exact t of a plane in units of 2^-24: exact but for a rounding of double.
+double relative_error(float t, float o, float d, float plane) {
+    const double way = double{plane} - o;
+    return (double{t} * d - way) / way * 0x1p24;
+}
+
+TEST_CASE(
+    "ends in float are never on the wrong side of the exact ones, and the worst are near to them") {
+    // Hill climbing for the largest near end and the smallest far end.
+    double near = -10.0, far = 10.0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Pcg32 random(307, seed);
+        const auto number = [&] { return std::ldexp(1.0f + random.uniform(), -1); };
+        for (const bool at_near : {true, false}) {
+            float best[3] = {-number(), number(), number()};
+            double most = at_near ? -10.0 : 10.0;
+            for (int step = 0; step < pairs_each / 8; ++step) {
+                float next[3] = {best[0], best[1], best[2]};
+                float& x = next[random.below(3)];
+                const float nudged = x * (1.0f + std::ldexp(random.uniform(-1.0f, 1.0f),
+                                                            -static_cast<int>(random.below(24))));
+                x = random.below(8) ? nudged : x < 0.0f ? -number() : number();
+                const Interval ends = at_near ? slab_ends(next[0], next[1], next[2], infinity)
+                                              : slab_ends(next[0], next[1], -infinity, next[2]);
+                const double found =
+                    relative_error(at_near ? ends.enter : ends.leave, next[0], next[1], next[2]);
+                if (at_near ? found < most : found > most) continue;
+                most = found;
+                std::copy(next, next + 3, best);
+            }
+            near = at_near ? std::max(near, most) : near;
+            far = at_near ? far : std::min(far, most);
+        }
+    }
+    std::printf("near ends off by %.3f roundings at most, far ends by %.3f at least\n", near, far);
+    CHECK(near <= 0.0);
+    CHECK(near > -0.75);  // of four roundings
+    CHECK(far >= 0.0);
+    CHECK(far < 2.5);  // two more than the four
+}
+
+TEST_CASE("ends of t among the denormal floats are within two of the exact ones, outside") {
+    Pcg32 random(308);
+    for (int i = 0; i < pairs_each; ++i) {
+        const float d = std::ldexp(1.0f + random.uniform(),
+                                   100 + static_cast<int>(random.below(25))),
+                    plane = std::ldexp(1.0f + random.uniform(), -40);
+        // Where the product is denormal t d is a double, exactly.
+        const double way = plane;
+        const Interval near = slab_ends(0.0f, d, plane, infinity),
+                       far = slab_ends(0.0f, d, -infinity, plane),
+                       flat = slab_ends(0.0f, d, plane, plane);
+        REQUIRE(double{near.enter} * d <= way);
+        REQUIRE(double{far.leave} * d >= way);
+        REQUIRE(flat.enter == near.enter);
+        REQUIRE(flat.leave == far.leave);
+        if (far.leave > 0x1p-130f) continue;  // where its relative error counts
+        REQUIRE((double{near.enter} + 2 * 0x1p-149) * d >= way);
+        REQUIRE((double{far.leave} - 2 * 0x1p-149) * d <= way);
+    }
+}
+
+TEST_CASE("directions whose reciprocal is denormal lose no part of the ray in the box") {
+    Pcg32 random(309);
+    for (int i = 0; i < pairs_each; ++i) {
+        const float d = std::ldexp(1.0f + random.uniform(),
+                                   126 + static_cast<int>(random.below(2))),
+                    plane = std::ldexp(1.0f + random.uniform(), 124);
+        const Interval near = slab_ends(0.0f, d, plane, infinity),
+                       far = slab_ends(0.0f, d, -infinity, plane);
+        REQUIRE(double{near.enter} * d <= double{plane});
+        REQUIRE(double{far.leave} * d >= double{plane});
+        REQUIRE(relative_error(near.enter, 0.0f, d, plane) > -10.0);
+        REQUIRE(relative_error(far.leave, 0.0f, d, plane) < 10.0);
+    }
+}
+
+TEST_CASE("in double, four roundings between near and far lose no corner, before or behind") {
+    // Exactly, the ray is at x = 17 and at y = 1 at once, at t = (1 + 2^-53 - ...) / c. The
+    // difference of x is rounded up, that of y down; c's division does the rest.
+    constexpr float small = 0x1p-53f * (1.0f - 0x1p-18f);
+    const Aabb box{{17, -9, -1}, {99, 1, 1}};
+    Pcg32 random(310);
+    double worst = 0.0;
+    for (int i = 0; i < 2'000; ++i) {
+        const auto c = static_cast<float>((1u << 18) + random.below(1u << 18));
+        for (const float way : {1.0f, -1.0f}) {
+            const Ray ray{{-17.0f * small, -small, 0}, {way * 17.0f * c, way * c, 0}, -infinity};
+            REQUIRE(exactly_hits(ray, box));
+            REQUIRE(SlabConservative::intersect(ray, box));
+            const double x = (17.0 + 17.0 * small) / (17.0 * c), y = (1.0 + double{small}) / c;
+            worst = std::max(worst, (x - y) / y * 0x1p53);
+        }
+    }
+    std::printf("near beyond far by up to %.3f roundings of double\n", worst);
+    CHECK(worst > 3.0);
+    CHECK(worst < 5.0);
+}
+
+/// The safe test with its far ends times a factor, as Ize 2013 has it.
+bool hits_with_factor(const Ray& ray, const Aabb& box, float factor) {
+    const PreparedBoxRay prepared(ray);
+    float enter = ray.tmin, leave = ray.tmax;
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool backwards = std::signbit(prepared.inverse[axis]);
+        const float near =
+            ((backwards ? box.max : box.min)[axis] - ray.origin[axis]) * prepared.inverse[axis];
+        const float far = ((backwards ? box.min : box.max)[axis] - ray.origin[axis]) *
+                          prepared.inverse[axis] * factor;
+        enter = near > enter ? near : enter;
+        leave = far < leave ? far : leave;
+    }
+    return enter <= leave;
+}
+
+TEST_CASE(
+    "1.00000024 on far ends alone is too little, by this ray; the next float but one is enough") {
+    static_assert(1.00000024f == 1.0f + 4.0f * 0x1p-24f);
+    const Ray ray{{-0x1.028f5cp-24f, -0x1.fae148p-25f, 0}, {0x1.aa9708p-1f, 0x1.aaa26cp-1f, 0}};
+    const Aabb box{{0x1.0000c2p+0f, -9, -1}, {9, 0x1.000798p+0f, 1}};
+    REQUIRE(exactly_hits(ray, box));
+    CHECK_FALSE(hits_with_factor(ray, box, 1.0f + 4.0f * 0x1p-24f));
+    CHECK(hits_with_factor(ray, box, 1.0f + 6.0f * 0x1p-24f));
+    CHECK(SlabConservative::intersect(ray, box));
+    // Corners like that one: y = 1 with x = 1 or a little before it.
+    Pcg32 random(311);
+    int hits = 0, missed = 0;
+    for (int i = 0; i < 10 * pairs_each; ++i) {
+        const auto near_one = [&] {
+            return 1.0f + 0x1p-23f * static_cast<float>(random.below(1u << 12));
+        };
+        const float x = near_one(), y = near_one(), o = -0x1p-24f * random.uniform(0.9f, 1.1f),
+                    dx = 1.0f - 0x1p-24f * static_cast<float>(random.below(1u << 13));
+        const double t = (double{x} - o) / dx;
+        const float p = -0x1p-24f * random.uniform(0.9f, 1.1f),
+                    dy = static_cast<float>((double{y} - p) / t);
+        const Ray aimed{{o, p, 0}, {dx, dy, 0}};
+        const Aabb corner{{x, -9, -1}, {9, y, 1}};
+        if (!exactly_hits(aimed, corner)) continue;
+        ++hits;
+        missed += !hits_with_factor(aimed, corner, 1.0f + 6.0f * 0x1p-24f);
+    }
+    CHECK(hits > pairs_each);
+    CHECK(missed == 0);
 }
 
 TEST_CASE("the printed test rejects every ray from inside the box, the others none") {

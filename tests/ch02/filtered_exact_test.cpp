@@ -3,6 +3,7 @@
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
+#include "tests/oracle/moller_trumbore_bound.hpp"
 #include "tests/suite/accelerator_suite.hpp"
 
 #include <array>
@@ -74,7 +75,11 @@ std::optional<float> compare_one(const RayAndTriangle& pair, Outcome& outcome) {
         wrong(outcome.disagreements, exact.empty() ? "wrong hit" : "wrong miss");
     if (hit && !exact.empty()) {
         if (hit->t != exact[0].t) wrong(outcome.wrong_t, "wrong t");
-        if (!(hit->u >= 0.0f && hit->v >= 0.0f && double{hit->u} + hit->v <= 1.0 + 0x1p-23))
+        const Crossing weights = crossing(pair.ray, pair.triangle).value();
+        const double error =
+            moller_trumbore_bound(pair.ray, pair.triangle, weights).weight + 0x1p-24;
+        if (!(hit->u >= 0.0f && hit->v >= 0.0f && double{hit->u} + hit->v <= 1.0 + 0x1p-23 &&
+              std::abs(hit->u - weights.u) <= error && std::abs(hit->v - weights.v) <= error))
             wrong(outcome.wrong_uv, "wrong u, v");
     }
     return exact.empty() ? std::nullopt : std::optional(exact[0].t);
@@ -265,20 +270,88 @@ TEST_CASE(
     // From z = 2^24 down to about z = 1/2, 2^-104 per unit of t: t is about 2^128 - 2^103, the
     // middle between the largest float and what would follow it; the plane's tilt makes it differ
     // by 2^-84 of itself.
-    const auto with_tilt = [](float tilt, float tmax) {
+    bool from_behind = false;
+    const auto with_tilt = [&](float tilt, float tmax) {
         const Ray ray{{0x1p-36f, 0x1p-36f, 0x1p24f}, {0, 0, -0x1p-104f}, 0.0f, tmax};
-        return RayAndTriangle{ray, {{0, 0, 0.5f}, {1, 0, 0.5f + tilt}, {0, 1, 0.5f}}};
+        const Point3 a(0, 0, 0.5f), b(1, 0, 0.5f + tilt), c(0, 1, 0.5f);
+        return RayAndTriangle{ray, from_behind ? Triangle{a, c, b} : Triangle{a, b, c}};
     };
     Outcome outcome;
     constexpr float largest = std::numeric_limits<float>::max();
-    CHECK(compare_one(with_tilt(0x1p-23f, infinity), outcome) == largest);
-    CHECK(compare_one(with_tilt(0x1p-23f, largest), outcome) == largest);
-    CHECK(compare_one(with_tilt(0.0f, infinity), outcome) == infinity);
-    CHECK(compare_one(with_tilt(-0x1p-23f, infinity), outcome) == infinity);
-    CHECK(compare_one(with_tilt(-0x1p-23f, largest), outcome) == std::nullopt);
+    for (const bool behind : {false, true}) {
+        from_behind = behind;
+        CHECK(compare_one(with_tilt(0x1p-23f, infinity), outcome) == largest);
+        CHECK(compare_one(with_tilt(0x1p-23f, largest), outcome) == largest);
+        CHECK(compare_one(with_tilt(0.0f, infinity), outcome) == infinity);
+        CHECK(compare_one(with_tilt(-0x1p-23f, infinity), outcome) == infinity);
+        CHECK(compare_one(with_tilt(-0x1p-23f, largest), outcome) == std::nullopt);
+    }
     INFO(outcome.text());
     CHECK(outcome.right());
-    CHECK(outcome.stages[Stage::expansions] == 5);
+    CHECK(outcome.stages[Stage::expansions] == 10);
+}
+
+/// A ray straight down at a plane that is tilted so little that t differs from a number half-way
+/// between two floats by 2^-58 and less of itself. The edges' last bits make the volumes long, and
+/// so t is computed with three roundings to either side. Where the ray's y is small enough, no
+/// integer holds the volumes.
+RayAndTriangle nearly_half_way(Pcg32& random, float tilt, float y) {
+    const auto edge = [&](float size) { return size * (1.0f + random.uniform()); };
+    const float half_way = 2.0f - 0x1p-23f * static_cast<float>(1 + random.below(1u << 10)),
+                below = -0x1p-24f;  // half a unit in half_way's last place
+    const float e1x = edge(0x1p10f), e1y = -edge(0x1p-1f), e2x = edge(0x1p-1f), e2y = edge(0x1p10f);
+    // t = half_way - below - tilt (e2y x - e2x y) / (e1x e2y - e1y e2x)
+    return {{{0x1p-24f, y, half_way}, {0, 0, -1}},
+            {{0, 0, below}, {e1x, e1y, below + tilt}, {e2x, e2y, below}}};
+}
+
+TEST_CASE(
+    "t is the nearest float where three roundings hide on which side of the middle it is, by "
+    "integers and by expansions") {
+    for (const float y : {0x1p-24f, 0x1p-60f}) {
+        Pcg32 random(205);
+        Outcome outcome;
+        for (int i = 0; i < pairs_each; ++i)
+            compare_one(nearly_half_way(random, i % 2 ? 0x1p-24f : -0x1p-24f, y), outcome);
+        INFO(outcome.text());
+        CHECK(outcome.right());
+        CHECK(outcome.hits == outcome.decisions);
+        CHECK(outcome.stages[Stage::filter] == 0);
+    }
+}
+
+TEST_CASE("integers decide up to the last of their 127 bits, and no ray that needs more") {
+    // Corners of a cube of side 2^p, each moved inwards by less than 2 so that all bits are used,
+    // and directions of up to 24 bits: the volumes are as large as they can be.
+    Pcg32 random(206);
+    std::array<Outcome, 2> outcomes;  // by whether a direction's bits fit
+    for (int i = 0; i < 4 * pairs_each; ++i) {
+        const int p = 37 + static_cast<int>(random.below(5));
+        const auto corner = [&](std::uint32_t at) {
+            Point3 point;
+            for (int axis = 0; axis < 3; ++axis)
+                point[axis] = at >> axis & 1u ? std::ldexp(1.0f, p) - std::ldexp(1.0f, p - 24)
+                                              : -std::ldexp(1.0f, p);
+            return point;
+        };
+        RayAndTriangle pair;
+        pair.triangle = {corner(random.below(8)), corner(random.below(8)), corner(random.below(8))};
+        pair.ray = {.origin = corner(random.below(8)), .tmin = -infinity, .tmax = infinity};
+        for (int axis = 0; axis < 3; ++axis) {
+            const float size = 1.0f - std::ldexp(1.0f, -1 - static_cast<int>(random.below(24)));
+            pair.ray.direction[axis] = random.below(3) ? (random.below(2) ? size : -size) : 0.0f;
+        }
+        // One last bit somewhere.
+        (random.below(2) ? pair.ray.origin : pair.triangle.b)[static_cast<int>(random.below(3))] =
+            random.below(2) ? 1.0f : -1.0f;
+        compare_one(pair, outcomes[p > 39]);
+    }
+    for (const Outcome& outcome : outcomes) {
+        INFO(outcome.text());
+        CHECK(outcome.right());
+        CHECK(outcome.stages[Stage::integers] > 0);
+    }
+    CHECK(outcomes[1].stages[Stage::expansions] > 0);
 }
 
 TEST_CASE("a ray that is not valid and a triangle that is not finite are never hit") {
@@ -300,10 +373,34 @@ TEST_CASE("a ray that is not valid and a triangle that is not finite are never h
                 CHECK_FALSE(FilteredExact::intersect(good, broken));
             }
         }
+    // Infinities that meet nothing but zeros: the volumes are finite, and those of a hit.
+    CHECK_FALSE(FilteredExact::intersect({{1, 0, 0}, {-1, 0, 0.5f}},
+                                         {{0, 0, 0}, {infinity, 1, 0}, {0, 0, 1}}));
+    CHECK_FALSE(FilteredExact::intersect({{1, 0, 0.5f}, {-1, 0, 0}},
+                                         {{0, 0, 0}, {0, 0, 1}, {infinity, 1, 0}}));
     CHECK_FALSE(FilteredExact::intersect({{1, 1, 0}, {0, 0, 0}}, triangle));
     CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, nan, infinity}, triangle));
     CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, 0.0f, nan}, triangle));
     CHECK_FALSE(FilteredExact::intersect({{1, 1, 3}, {0, 0, -3}, 2.0f, 0.0f}, triangle));
+}
+
+TEST_CASE("a ray parallel to a triangle and nearly in its plane does not hit it at infinity") {
+    const Triangle triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    for (const float height : {0x1p-60f, -0x1p-60f, 0x1p-100f})
+        for (const float way : {1.0f, -1.0f}) {
+            Stages stages;
+            CHECK_FALSE(FilteredExact::intersect(
+                {{-1, 0.25f, height}, {way, 0, 0}, -infinity, infinity}, triangle, stages));
+            CHECK(stages[Stage::filter] == 0);
+        }
+}
+
+TEST_CASE("powers of two apart by 2^38 are integers of few bits") {
+    // The trailing zeros of the mantissas do not count.
+    Stages stages;
+    CHECK(FilteredExact::intersect({{0x1p19f, 0, 1}, {0, 0, -0x1p30f}},
+                                   {{0, 0, 0}, {0x1p20f, 0, 0}, {0, 0x1p-18f, 0}}, stages));
+    CHECK(stages[Stage::integers] == 1);
 }
 
 TEST_CASE(

@@ -11,6 +11,15 @@ TEST_CASE("a ray through a corner of a box hits it") {
     CHECK(may_hit_box(ray, {{0.2f, 0.5f, 0.8f}, {0.7f, 0.8f, 1.0f}}));
 }
 
+TEST_CASE("the ray for which 1.00000024 is too little hits its box, at any scale") {
+    for (const float scale : {1.0f, 0x1p-40f, 0x1p40f}) {
+        const Ray ray{scale * Point3(-0x1.028f5cp-24f, -0x1.fae148p-25f, 0),
+                      {0x1.aa9708p-1f, 0x1.aaa26cp-1f, 0}};
+        CHECK(may_hit_box(
+            ray, {scale * Point3(0x1.0000c2p+0f, -9, -1), scale * Point3(9, 0x1.000798p+0f, 1)}));
+    }
+}
+
 TEST_CASE("no ray towards a corner that hits the box in exact arithmetic is missed") {
     Pcg32 random(5);
     int hits = 0, missed = 0;
@@ -44,4 +53,14 @@ TEST_CASE("a ray that passes at a thousandth of the box's size is missed") {
     }
     CHECK(wrong == 0);
     CHECK_FALSE(may_hit_box({{5, 0, 0}, {1, 0.1f, 0.1f}}, {{0, -1, -1}, {1, 1, 1}}));
+}
+
+TEST_CASE("a ray that passes at forty roundings is missed, at any scale") {
+    // It leaves the slab of y at t = start and enters that of x forty roundings later.
+    for (const float scale : {1.0f, 0x1p-40f, 0x1p40f})
+        for (const float start : {2.0f, 3.0f, 5.0f}) {
+            const Ray ray{scale * Point3(-start, 1.0f - start, 0), {scale, scale, 0}};
+            const float edge = 40.0f * start * 0x1p-24f;
+            CHECK_FALSE(may_hit_box(ray, {scale * Point3(edge, -9, -1), scale * Point3(9, 1, 1)}));
+        }
 }
