@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace space {
 
@@ -23,7 +24,10 @@ using Point3 = Point<3>;
 using Vector2 = Vector<2>;
 using Vector3 = Vector<3>;
 /// The same in double, for decisions that floats cannot make safely.
-using Double3 = glm::dvec3;
+template <int D>
+using Double = glm::vec<D, double>;
+using Double2 = Double<2>;
+using Double3 = Double<3>;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -113,6 +117,7 @@ bool is_valid(const BasicRay<D>& ray) {
 struct Triangle {
     Point3 a, b, c;
 
+    const Point3& operator[](int corner) const { return corner == 0 ? a : corner == 1 ? b : c; }
     bool operator==(const Triangle&) const = default;
 };
 
@@ -135,7 +140,12 @@ inline Double3 normal(const Triangle& triangle) {
 struct Segment {
     Point2 a, b;
 
+    const Point2& operator[](int end) const { return end == 0 ? a : b; }
     bool operator==(const Segment&) const = default;
 };
+
+/// What is split, sorted and traced in D dimensions: D points that span a line or a plane.
+template <int D>
+using Simplex = std::conditional_t<D == 2, Segment, Triangle>;
 
 }  // namespace space

@@ -31,12 +31,11 @@ struct PlaneCrossing {
 template <int D>
 PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, double enter,
                           double leave) {
-    constexpr double roundings = 16.0 * 0x1p-53;
-    const DoublePoint<D> from = DoublePoint<D>(ray.origin) - DoublePoint<D>(plane.through[0]);
-    const DoublePoint<D> direction{ray.direction};
+    const Double<D> from = Double<D>(ray.origin) - Double<D>(plane.through[0]);
+    const Double<D> direction{ray.direction};
     const double height = glm::dot(plane.normal, from), slope = glm::dot(plane.normal, direction);
-    const double height_error = roundings * plane.size * SplitPlane<D>::one_norm(from);
-    const double slope_error = roundings * plane.size * SplitPlane<D>::one_norm(direction);
+    const double height_error = sum_roundings * plane.size * one_norm<D>(from);
+    const double slope_error = sum_roundings * plane.size * one_norm<D>(direction);
     if (std::abs(slope) > 2.0 * slope_error) {
         const double t = -height / slope;
         const double error =
@@ -61,9 +60,9 @@ void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& count
                    const Cross& cross) {
     if (!is_valid(ray) || tree.nodes.empty()) return;
     struct Task {
-        std::int32_t crossed;  ///< the node whose plane comes next; none before the first
-        std::int32_t cell;     ///< the child beyond it
-        double enter, leave;   ///< the part of the ray in that child, never too short
+        std::uint32_t crossed;  ///< the node whose plane comes next; none before the first
+        std::uint32_t cell;     ///< the child beyond it
+        double enter, leave;    ///< the part of the ray in that child, never too short
     };
     // What counts is t rounded to float: a hit may lie half a place outside the interval.
     std::vector<Task> tasks{{BspTree<D>::none, 0, std::nextafter(ray.tmin, -infinity),
@@ -73,14 +72,13 @@ void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& count
         auto [crossed, index, enter, leave] = tasks.back();
         tasks.pop_back();
         if (!(enter <= limit)) continue;
-        if (crossed != BspTree<D>::none)
-            limit = cross(tree.nodes[static_cast<std::size_t>(crossed)]);
+        if (crossed != BspTree<D>::none) limit = cross(tree.nodes[crossed]);
         while (index != BspTree<D>::none) {
-            const auto& node = tree.nodes[static_cast<std::size_t>(index)];
+            const auto& node = tree.nodes[index];
             counts.visit_node();
             const PlaneCrossing crossing = cross_plane(ray, tree.planes[node.plane], enter, leave);
-            const std::int32_t near = crossing.starts_in_front ? node.front : node.back;
-            const std::int32_t far = crossing.starts_in_front ? node.back : node.front;
+            const std::uint32_t near = crossing.starts_in_front ? node.front : node.back;
+            const std::uint32_t far = crossing.starts_in_front ? node.back : node.front;
             if (crossing.latest < enter) {
                 index = far;
             } else if (crossing.earliest > leave) {
@@ -104,12 +102,11 @@ class Bsp {
   public:
     using Config = BspConfig;
 
-    template <class Observer = NoBspObserver>
+    template <class Observer = NoObserver>
     static Bsp build(std::span<const Triangle> triangles, const Config& config = {},
                      Observer&& observer = {}) {
         Bsp bsp;
-        bsp.tree_ = BspBuilder<3, Observer>::build(corners(triangles), config,
-                                                   std::forward<Observer>(observer));
+        bsp.tree_ = BspBuilder<3>::build(triangles, config, observer);
         return bsp;
     }
     const BspTree<3>& tree() const { return tree_; }
@@ -138,10 +135,10 @@ class Bsp {
     TreeShape shape() const {
         std::size_t bytes = sizeof *this + tree_.nodes.size() * sizeof(BspTree<3>::Node) +
                             tree_.planes.size() * sizeof(SplitPlane<3>) +
-                            tree_.polygons.size() * sizeof(Corners<3>);
+                            tree_.polygons.size() * sizeof(Triangle);
         std::size_t leaves = 0;
         for (const Fragment<3>& fragment : tree_.fragments)
-            bytes += sizeof fragment + fragment.corners.size() * sizeof(Corner<3>);
+            bytes += sizeof fragment + fragment.corners.size() * sizeof(Fragment<3>::Corner);
         for (const auto& node : tree_.nodes)
             leaves += node.front == BspTree<3>::none && node.back == BspTree<3>::none;
         return {.nodes = tree_.nodes.size(),
@@ -161,9 +158,8 @@ class Bsp {
         front_to_back(tree_, ray, counts, [&](const BspTree<3>::Node& node) {
             for (std::uint32_t i = 0; i < node.count; ++i) {
                 const std::uint32_t polygon = tree_.fragments[node.first + i].polygon;
-                const Corners<3>& p = tree_.polygons[polygon];
                 counts.test_triangle();
-                if (auto hit = Test::intersect(ray, Triangle{p[0], p[1], p[2]})) {
+                if (auto hit = Test::intersect(ray, tree_.polygons[polygon])) {
                     hit->triangle = polygon;
                     limit = found(*hit);
                 }

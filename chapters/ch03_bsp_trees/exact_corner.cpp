@@ -3,6 +3,8 @@
 #include "chapters/ch03_bsp_trees/exact_point.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace space {
 namespace {
@@ -46,7 +48,7 @@ struct WholePlane {
     Whole<D> normal;
     mpz_class offset;
 
-    explicit WholePlane(const Corners<D>& through) {
+    explicit WholePlane(const Simplex<D>& through) {
         const Whole<D> a = units<D>(through[0]), ab = operator-<D>(units<D>(through[1]), a);
         if constexpr (D == 3)
             normal = cross(ab, operator-<D>(units<D>(through[2]), a));
@@ -85,28 +87,49 @@ Homogeneous<3> meet(const WholePlane<3>& a, const WholePlane<3>& b, const WholeP
     return result;
 }
 
-Homogeneous<3> point_of(const Meet3& m) {
-    const Corners<3>& polygon = *m.polygon;
-    const auto line_meets = [&](int edge, const Corners<3>& plane) {
-        return meet<3>(units<3>(polygon[edge]), units<3>(polygon[(edge + 1) % 3]),
-                       WholePlane<3>(plane));
-    };
-    if (m.first_edge >= 0 && m.second_edge >= 0) {  // the corner that the two edges share
-        const int corner = (m.first_edge + 1) % 3 == m.second_edge ? m.second_edge : m.first_edge;
-        return {units<3>(polygon[corner]), mpz_class(1)};
-    }
-    if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
-    if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
-    return meet(WholePlane<3>(polygon), WholePlane<3>(*m.first_plane),
-                WholePlane<3>(*m.second_plane));
+/// The number of the polygon's own corner that the meet is, if it is one: in space the one that two
+/// of its edges share.
+template <int D>
+std::optional<int> own_corner(const Meet<D>& m) {
+    const Carrier first = m.carriers.front(), second = m.carriers.back();
+    if (!first.is_original() || !second.is_original()) return std::nullopt;
+    return (first.edge() + 1) % 3 == second.edge() ? second.edge() : first.edge();
 }
 
-Homogeneous<2> point_of(const Meet2& m) {
-    return meet<2>(units<2>((*m.polygon)[0]), units<2>((*m.polygon)[1]), WholePlane<2>(*m.line));
+/// A meet of an original edge and a plane: the edge's ends p and q, and the plane.
+template <int D>
+struct CutEdge {
+    const Point<D>&p, &q;
+    const SplitPlane<D>& plane;
+};
+/// Nothing where both carriers are planes.
+template <int D>
+std::optional<CutEdge<D>> cut_edge(const Meet<D>& m) {
+    if constexpr (D == 2) {
+        return CutEdge<2>{m.polygon.a, m.polygon.b, m.planes[m.carriers[0].number()]};
+    } else {
+        auto [edge, plane] = m.carriers;
+        if (!edge.is_original()) std::swap(edge, plane);
+        if (!edge.is_original()) return std::nullopt;
+        return CutEdge<3>{m.polygon[edge.edge()], m.polygon[(edge.edge() + 1) % 3],
+                          m.planes[plane.number()]};
+    }
+}
+
+/// Of a meet that is none of the polygon's own corners.
+template <int D>
+Homogeneous<D> point_of(const Meet<D>& m) {
+    const auto cut = cut_edge(m);
+    if constexpr (D == 3)
+        if (!cut)
+            return meet(WholePlane<3>(m.polygon),
+                        WholePlane<3>(m.planes[m.carriers[0].number()].through),
+                        WholePlane<3>(m.planes[m.carriers[1].number()].through));
+    return meet<D>(units<D>(cut->p), units<D>(cut->q), WholePlane<D>(cut->plane.through));
 }
 
 template <int D>
-int side(const Corners<D>& plane, const Homogeneous<D>& point) {
+int side(const Simplex<D>& plane, const Homogeneous<D>& point) {
     const WholePlane<D> exact(plane);
     const mpz_class distance =
         dot<D>(exact.normal, point.numerator) - exact.offset * point.denominator;
@@ -131,17 +154,9 @@ Approximation<D> rounded(const Homogeneous<D>& point) {
     return result;
 }
 
-/// u = 2^-53; sixteen of them cover the seven to eleven roundings of a distance or a determinant
-/// here, and of its bound.
-constexpr double roundings = 16.0 * 0x1p-53;
 /// A double answer is good enough where its error is below this part of the distances that it was
 /// made from: the filters that use it then still decide all but one corner in a million.
 constexpr double good_enough = 0x1p-30;
-
-template <int D>
-double one_norm(const DoublePoint<D>& v) {
-    return SplitPlane<D>::one_norm(v);
-}
 
 /// Any order of points, so that polygons on both sides of an edge round the same point.
 template <int D>
@@ -156,18 +171,18 @@ template <int D>
 std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>& q,
                                                const SplitPlane<D>& plane) {
     if (before<D>(q, p)) return meet_in_double<D>(q, p, plane);
-    const DoublePoint<D> start(p), way = DoublePoint<D>(q) - start, anchor(plane.through[0]);
-    const double of_p = plane.distance(start), of_q = plane.distance(DoublePoint<D>(q)),
+    const Double<D> start(p), way = Double<D>(q) - start, anchor(plane.through[0]);
+    const double of_p = plane.distance(start), of_q = plane.distance(Double<D>(q)),
                  difference = of_p - of_q;
-    const double p_error = roundings * plane.size * one_norm<D>(start - anchor);
+    const double p_error = sum_roundings * plane.size * one_norm<D>(start - anchor);
     const double difference_error =
-        p_error + roundings * plane.size * one_norm<D>(DoublePoint<D>(q) - anchor);
+        p_error + sum_roundings * plane.size * one_norm<D>(Double<D>(q) - anchor);
     const double left = std::abs(difference) - difference_error;
     if (!(left > 0.0)) return std::nullopt;
     const double s = of_p / difference, s_error = (p_error + std::abs(s) * difference_error) / left;
     if (!(s_error < good_enough)) return std::nullopt;
-    return Approximation<D>{
-        start + s * way, (s_error + roundings) * one_norm<D>(way) + roundings * one_norm<D>(start)};
+    return Approximation<D>{start + s * way, (s_error + sum_roundings) * one_norm<D>(way) +
+                                                 sum_roundings * one_norm<D>(start)};
 }
 
 /// Where three planes meet, by Cramer's rule about a point nearby, in double.
@@ -180,7 +195,7 @@ std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const Spl
                   from_c = Double3(c.through[0]) - near;  // a's offset is 0
     const Double3 numerator = glm::dot(b.normal, from_b) * ca + glm::dot(c.normal, from_c) * ab;
     const double denominator = glm::dot(a.normal, bc);
-    const double volume = 2.0 * roundings * a.size * b.size * c.size,
+    const double volume = 2.0 * sum_roundings * a.size * b.size * c.size,
                  reach = one_norm<3>(from_b) + one_norm<3>(from_c);
     const double left = std::abs(denominator) - volume;
     if (!(left > 0.0)) return std::nullopt;
@@ -188,51 +203,50 @@ std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const Spl
     const double error = volume * (reach + one_norm<3>(from_near)) / left;
     if (!(error < good_enough * (reach + one_norm<3>(from_near)))) return std::nullopt;
     return Approximation<3>{near + from_near,
-                            error + roundings * (one_norm<3>(near) + one_norm<3>(from_near))};
+                            error + sum_roundings * (one_norm<3>(near) + one_norm<3>(from_near))};
 }
 
-std::optional<Approximation<3>> in_double(const Meet3& m) {
-    const auto line_meets = [&](int edge, const Corners<3>& plane) {
-        return meet_in_double<3>((*m.polygon)[edge], (*m.polygon)[(edge + 1) % 3],
-                                 SplitPlane<3>(plane));
-    };
-    if (m.first_edge >= 0 && m.second_edge >= 0) return std::nullopt;
-    if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
-    if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
-    return meet_in_double(SplitPlane<3>(*m.polygon), SplitPlane<3>(*m.first_plane),
-                          SplitPlane<3>(*m.second_plane));
-}
-std::optional<Approximation<2>> in_double(const Meet2& m) {
-    return meet_in_double<2>((*m.polygon)[0], (*m.polygon)[1], SplitPlane<2>(*m.line));
+template <int D>
+std::optional<Approximation<D>> in_double(const Meet<D>& m) {
+    const auto cut = cut_edge(m);
+    if constexpr (D == 3)
+        if (!cut)
+            return meet_in_double(SplitPlane<3>(m.polygon), m.planes[m.carriers[0].number()],
+                                  m.planes[m.carriers[1].number()]);
+    return meet_in_double<D>(cut->p, cut->q, cut->plane);
 }
 
 }  // namespace
 
-int exact_side(const Corners<3>& plane, const Meet3& meet) {
-    return side<3>(plane, point_of(meet));
-}
-int exact_side(const Corners<2>& line, const Meet2& meet) {
-    return side<2>(line, point_of(meet));
+template <int D>
+int exact_side(const Simplex<D>& plane, const Meet<D>& meet) {
+    if (const auto corner = own_corner(meet)) return exact_side<D>(plane, meet.polygon[*corner]);
+    return side<D>(plane, point_of(meet));
 }
 
 template <int D>
-int exact_side(const Corners<D>& plane, const Point<D>& point) {
+int exact_side(const Simplex<D>& plane, const Point<D>& point) {
     // Most corners that the filter leaves open are the plane's own: neighbours in a mesh share
     // them.
-    if (std::find(plane.begin(), plane.end(), point) != plane.end()) return 0;
+    for (int i = 0; i < D; ++i)
+        if (plane[i] == point) return 0;
     return sgn(WholePlane<D>(plane).distance(units<D>(point)));
 }
 
-bool is_on_a_line(const Corners<3>& polygon) {
+bool is_on_a_line(const Triangle& polygon) {
     const SplitPlane<3> quick(polygon);
-    if (one_norm<3>(quick.normal) > roundings * quick.size) return false;
+    if (one_norm<3>(quick.normal) > sum_roundings * quick.size) return false;
     const WholePlane<3> plane(polygon);
     return plane.normal[0] == 0 && plane.normal[1] == 0 && plane.normal[2] == 0;
 }
 
-std::array<mpq_class, 3> exact_point(const Meet3& meet) {
-    const Homogeneous<3> point = point_of(meet);
+std::array<mpq_class, 3> exact_point(const Meet<3>& meet) {
     std::array<mpq_class, 3> result;
+    if (const auto corner = own_corner(meet)) {
+        for (int axis = 0; axis < 3; ++axis) result[axis] = double{meet.polygon[*corner][axis]};
+        return result;
+    }
+    const Homogeneous<3> point = point_of(meet);
     for (int axis = 0; axis < 3; ++axis) {
         result[axis] = mpq_class(point.numerator[axis], point.denominator);
         result[axis].canonicalize();
@@ -241,16 +255,18 @@ std::array<mpq_class, 3> exact_point(const Meet3& meet) {
     return result;
 }
 
-template int exact_side<2>(const Corners<2>&, const Point<2>&);
-template int exact_side<3>(const Corners<3>&, const Point<3>&);
+template <int D>
+Approximation<D> approximate(const Meet<D>& meet) {
+    if (const auto corner = own_corner(meet)) return {Double<D>(meet.polygon[*corner]), 0.0};
+    const auto quick = in_double(meet);
+    return quick ? *quick : rounded<D>(point_of(meet));
+}
 
-Approximation<3> approximate(const Meet3& meet) {
-    const auto quick = in_double(meet);
-    return quick ? *quick : rounded<3>(point_of(meet));
-}
-Approximation<2> approximate(const Meet2& meet) {
-    const auto quick = in_double(meet);
-    return quick ? *quick : rounded<2>(point_of(meet));
-}
+template int exact_side<2>(const Segment&, const Meet<2>&);
+template int exact_side<3>(const Triangle&, const Meet<3>&);
+template int exact_side<2>(const Segment&, const Point2&);
+template int exact_side<3>(const Triangle&, const Point3&);
+template Approximation<2> approximate<2>(const Meet<2>&);
+template Approximation<3> approximate<3>(const Meet<3>&);
 
 }  // namespace space

@@ -6,55 +6,53 @@
 
 #include "chapters/ch03_bsp_trees/split_plane.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 namespace space {
 
-/// What an edge of a fragment lies on: an edge of its original polygon, or a splitting plane by its
-/// number. In the plane a fragment has no edges but ends: an end of the original segment, or the
-/// line that cut it off.
+/// What an edge of a fragment lies on: an edge of its original polygon (edge i from corner i to the
+/// next), or a splitting plane by its number. In the plane a fragment has no edges but ends: an end
+/// of the original segment, or the line that cut it off.
 struct Carrier {
-    std::int32_t id;
+    std::uint32_t id;  ///< a plane's number; an edge's, counted down from the largest
 
-    static Carrier original(int edge) { return {-1 - edge}; }
-    static Carrier plane(std::uint32_t number) { return {static_cast<std::int32_t>(number)}; }
-    bool is_original() const { return id < 0; }
-    int edge() const { return -1 - id; }
-    std::size_t number() const { return static_cast<std::size_t>(id); }  ///< of the plane
+    static Carrier original(int edge) { return {~static_cast<std::uint32_t>(edge)}; }
+    static Carrier plane(std::uint32_t number) { return {number}; }
+    bool is_original() const { return id >= ~2u; }
+    int edge() const { return static_cast<int>(~id); }
+    std::uint32_t number() const { return id; }  ///< of the plane
     bool operator==(const Carrier&) const = default;
+};
+
+/// An exact corner by its name: where its polygon and D - 1 carriers meet. In space the carriers
+/// are those of the edge that comes in and of the edge that goes out; in the plane that of the end.
+template <int D>
+struct Meet {
+    const Simplex<D>& polygon;
+    std::array<Carrier, D - 1> carriers;
+    std::span<const SplitPlane<D>> planes;  ///< by the carriers' numbers
 };
 
 /// A point and how far each of its coordinates may be off.
 template <int D>
 struct Approximation {
-    DoublePoint<D> at;
+    Double<D> at;
     double error;
 };
 
-/// In space: where the plane of `polygon` and the carriers of two neighbouring edges meet. Carriers
-/// are numbers of original edges (edge i from corner i to the next) or pointers to the planes.
-struct Meet3 {
-    const Corners<3>* polygon;
-    int first_edge, second_edge;  ///< original edges; -1: the plane instead
-    const Corners<3>*first_plane, *second_plane;
-};
-/// In the plane: where the line of `polygon` and a splitting line meet.
-struct Meet2 {
-    const Corners<2>* polygon;
-    const Corners<2>* line;
-};
-
 /// On which side of the plane the point lies, exactly: 1 in front, 0 on it, -1 behind.
-int exact_side(const Corners<3>& plane, const Meet3& meet);
-int exact_side(const Corners<2>& line, const Meet2& meet);
 template <int D>
-int exact_side(const Corners<D>& plane, const Point<D>& point);
+int exact_side(const Simplex<D>& plane, const Meet<D>& meet);
+template <int D>
+int exact_side(const Simplex<D>& plane, const Point<D>& point);
 
 /// Whether the three points lie on one line, exactly.
-bool is_on_a_line(const Corners<3>& polygon);
+bool is_on_a_line(const Triangle& polygon);
 
 /// The point itself, rounded from the exact one.
-Approximation<3> approximate(const Meet3& meet);
-Approximation<2> approximate(const Meet2& meet);
+template <int D>
+Approximation<D> approximate(const Meet<D>& meet);
 
 }  // namespace space

@@ -12,6 +12,6 @@
 namespace space {
 
 /// In scene units.
-std::array<mpq_class, 3> exact_point(const Meet3& meet);
+std::array<mpq_class, 3> exact_point(const Meet<3>& meet);
 
 }  // namespace space

@@ -38,11 +38,10 @@ void for_pixels_around(const Corners& corners, const Camera& camera, int width, 
 template <class Pixel>
 void for_pixels_of(const Fragment<3>& fragment, const BspTree<3>& tree, const FragmentRays& covers,
                    const Camera& camera, int width, int height, const Pixel& pixel) {
-    const auto& [a, b, c] = tree.polygons[fragment.polygon];
     std::vector<Double3> corners;
-    for (const Corner<3>& corner : fragment.corners) corners.push_back(corner.at);
+    for (const auto& corner : fragment.corners) corners.push_back(corner.at);
     for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
-        auto hit = FilteredExact::intersect(ray, Triangle{a, b, c});
+        auto hit = FilteredExact::intersect(ray, tree.polygons[fragment.polygon]);
         if (!hit || !covers.meets(ray, fragment)) return;
         hit->triangle = fragment.polygon;
         pixel(x, y, ray, *hit);

@@ -19,10 +19,9 @@ ExactPoint exact(const Double3& p) {
 }
 
 ExactPoint exact_corner(const BspTree<3>& tree, Grade grade, const Fragment<3>& fragment,
-                        std::size_t corner) {
-    if (grade != Grade::exact || is_exact(fragment.corners[corner]))
-        return exact(fragment.corners[corner].at);
-    return exact_point(meet_of(fragment, corner, tree.polygons, tree.planes));
+                        const Fragment<3>::Corner& corner) {
+    if (grade != Grade::exact) return exact(corner.at);
+    return exact_point({tree.polygons[fragment.polygon], corner.carriers, tree.planes});
 }
 
 ExactPoint operator-(const ExactPoint& a, const ExactPoint& b) {
@@ -48,14 +47,14 @@ ExactPoint doubled_area(const std::vector<ExactPoint>& corners) {
 
 double worst_area_error(const BspTree<3>& tree, Grade grade) {
     std::vector<ExactPoint> normals;
-    for (const Corners<3>& polygon : tree.polygons)
+    for (const Triangle& polygon : tree.polygons)
         normals.push_back(doubled_area(
             {exact(Double3(polygon[0])), exact(Double3(polygon[1])), exact(Double3(polygon[2]))}));
     std::vector<mpq_class> sums(tree.polygons.size());
     for (const Fragment<3>& fragment : tree.fragments) {
         std::vector<ExactPoint> corners;
-        for (std::size_t i = 0; i < fragment.corners.size(); ++i)
-            corners.push_back(exact_corner(tree, grade, fragment, i));
+        for (const auto& corner : fragment.corners)
+            corners.push_back(exact_corner(tree, grade, fragment, corner));
         sums[fragment.polygon] += dot(doubled_area(corners), normals[fragment.polygon]);
     }
     double worst = 0.0;
@@ -72,18 +71,16 @@ void count_cracks(const BspTree<3>& tree, Grade grade, Tiling& tiling) {
         std::uint32_t polygon;
         ExactPoint at;
     };
-    std::map<std::pair<EdgeKey, std::int32_t>, std::vector<Cut>> cuts;  // by edge and plane
+    std::map<std::pair<EdgeKey, std::uint32_t>, std::vector<Cut>> cuts;  // by edge and plane
     for (const Fragment<3>& fragment : tree.fragments)
-        for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
-            const std::size_t previous =
-                (i + fragment.corners.size() - 1) % fragment.corners.size();
-            Carrier edge = fragment.corners[previous].carrier, plane = fragment.corners[i].carrier;
+        for (const auto& corner : fragment.corners) {
+            auto [edge, plane] = corner.carriers;
             if (plane.is_original()) std::swap(edge, plane);
             if (!edge.is_original() || plane.is_original()) continue;
             auto& here = cuts[{edge_key(tree.polygons[fragment.polygon], edge.edge()), plane.id}];
             const auto same = [&](const Cut& cut) { return cut.polygon == fragment.polygon; };
             if (std::none_of(here.begin(), here.end(), same))
-                here.push_back({fragment.polygon, exact_corner(tree, grade, fragment, i)});
+                here.push_back({fragment.polygon, exact_corner(tree, grade, fragment, corner)});
         }
     for (const auto& [where, of] : cuts)
         for (std::size_t i = 1; i < of.size(); ++i) {
@@ -98,9 +95,8 @@ int sign(double value) {
 
 }  // namespace
 
-EdgeKey edge_key(const Corners<3>& polygon, int edge) {
-    const Point3 &a = polygon[static_cast<std::size_t>(edge)],
-                 &b = polygon[static_cast<std::size_t>((edge + 1) % 3)];
+EdgeKey edge_key(const Triangle& polygon, int edge) {
+    const Point3 &a = polygon[edge], &b = polygon[(edge + 1) % 3];
     return std::min(EdgeKey{a.x, a.y, a.z, b.x, b.y, b.z}, EdgeKey{b.x, b.y, b.z, a.x, a.y, a.z});
 }
 
@@ -133,25 +129,24 @@ bool FragmentRays::meets(const Ray& ray, const Fragment<3>& fragment) const {
 }
 
 // [side_of_edge]
-/// In double, a term carries at most six roundings and the errors of two corners: sixteen times u =
-/// 2^-53 times the product of the three lengths covers the former, and (|d| times an error of 3 e
+/// In double, a term carries at most six roundings and the errors of two corners: sum_roundings
+/// times the product of the three lengths covers the former, and (|d| times an error of 3 e
 /// in one-norm) times the other length the latter.
 int FragmentRays::side_of_edge(const Ray& ray, const Fragment<3>& fragment, std::size_t p,
                                std::size_t q) const {
-    constexpr double roundings = 16.0 * 0x1p-53;
     const Double3 origin(ray.origin), direction(ray.direction);
-    const Corner<3>&to_p = fragment.corners[p], &to_q = fragment.corners[q];
+    const Fragment<3>::Corner &to_p = fragment.corners[p], &to_q = fragment.corners[q];
     const Double3 op = to_p.at - origin, oq = to_q.at - origin;
-    const auto length = [](const Double3& v) { return SplitPlane<3>::one_norm(v); };
+    const auto length = [](const Double3& v) { return one_norm<3>(v); };
     const double volume = glm::dot(glm::cross(op, oq), direction);
-    const double bound =
-        length(direction) * (roundings * length(op) * length(oq) + 4.0 * to_p.error * length(oq) +
-                             4.0 * to_q.error * length(op) + 16.0 * to_p.error * to_q.error);
+    const double bound = length(direction) *
+                         (sum_roundings * length(op) * length(oq) + 4.0 * to_p.error * length(oq) +
+                          4.0 * to_q.error * length(op) + 16.0 * to_p.error * to_q.error);
     if (std::abs(volume) > bound) return sign(volume);
 
     const ExactPoint from = exact(origin);
-    return sgn(dot(cross(exact_corner(tree_, grade_, fragment, p) - from,
-                         exact_corner(tree_, grade_, fragment, q) - from),
+    return sgn(dot(cross(exact_corner(tree_, grade_, fragment, to_p) - from,
+                         exact_corner(tree_, grade_, fragment, to_q) - from),
                    exact(direction)));
 }
 // [side_of_edge]
@@ -172,7 +167,7 @@ SlippedRays FragmentRays::at_cuts(std::uint64_t count, std::uint64_t seed) const
     std::vector<Target> targets;
     for (const Fragment<3>& fragment : tree_.fragments)
         for (std::size_t i = 0; i < fragment.corners.size(); ++i)
-            if (!fragment.corners[i].carrier.is_original())
+            if (!fragment.corners[i].carriers.back().is_original())
                 targets.push_back({fragment.corners[i].at,
                                    fragment.corners[(i + 1) % fragment.corners.size()].at,
                                    {fragment.polygon, fragment.polygon}});
@@ -184,8 +179,7 @@ SlippedRays FragmentRays::slipped(const std::vector<Target>& targets, std::uint6
     SlippedRays result;
     if (targets.empty()) return result;
     Aabb box;
-    for (const Corners<3>& polygon : tree_.polygons)
-        for (const Point3& corner : polygon) box.extend(corner);
+    for (const Triangle& polygon : tree_.polygons) box.extend(bounds(polygon));
     const Point3 centre = box.centroid();
     const float radius = 1.5f * glm::length(box.max - centre);  // from outside, with room between
 
@@ -197,8 +191,7 @@ SlippedRays FragmentRays::slipped(const std::vector<Target>& targets, std::uint6
         const Point3 origin = centre + radius * Vector3(random_direction(random));
         const Ray ray{origin, aim - origin};
         const auto hits = [&](std::uint32_t polygon) {
-            const Corners<3>& p = tree_.polygons[polygon];
-            return FilteredExact::intersect(ray, Triangle{p[0], p[1], p[2]}).has_value();
+            return FilteredExact::intersect(ray, tree_.polygons[polygon]).has_value();
         };
         const auto [a, b] = target.polygons;
         if (!hits(a) && !hits(b)) continue;

@@ -14,7 +14,7 @@ namespace space {
 
 /// The ends of an edge, in one order for all polygons that have it.
 using EdgeKey = std::array<float, 6>;
-EdgeKey edge_key(const Corners<3>& polygon, int edge);
+EdgeKey edge_key(const Triangle& polygon, int edge);
 
 /// Areas and cracks of all fragments.
 struct Tiling {

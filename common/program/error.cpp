@@ -1,5 +1,7 @@
 #include "common/program/error.hpp"
 
+#include "common/limit_error.hpp"
+
 #include <cstdio>
 #include <new>
 
@@ -11,6 +13,9 @@ int run_program(const char* name, int (*body)(int, char**), int argc, char** arg
     } catch (const Error& error) {
         std::fprintf(stderr, "%s: %s\n", name, error.what());
         return static_cast<int>(error.code());
+    } catch (const LimitError& error) {
+        std::fprintf(stderr, "%s: %s\n", name, error.what());
+        return static_cast<int>(ExitCode::usage);
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s: out of memory\n", name);
     } catch (const std::exception& error) {

@@ -37,7 +37,8 @@ inline Error output_error(const std::string& line) {
     return {ExitCode::bad_output, line};
 }
 
-/// Runs a program's body; an Error becomes one line on stderr, "NAME: line", and its exit code.
+/// Runs a program's body; an Error becomes one line on stderr, "NAME: line", and its exit code; so
+/// does a LimitError, whose exit code is that of an absurd value.
 int run_program(const char* name, int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace space

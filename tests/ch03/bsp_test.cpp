@@ -19,22 +19,17 @@ struct Sets {
     static char name(std::uint32_t polygon) {
         return static_cast<char>('A' + static_cast<int>(polygon));
     }
-    template <int D>
-    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t,
-                std::int32_t, bool) {
-        splitters += name(*polygon);
+    void observe(const BspBuilder<2>::Chosen& event) {
+        splitters += name(event.polygon.value());
         front.emplace_back();
         back.emplace_back();
     }
-    template <int D>
-    void placed(const Fragment<D>& fragment, Side side) {
-        if (side == Side::front || side == Side::across) front.back() += name(fragment.polygon);
-        if (side == Side::back || side == Side::across) back.back() += name(fragment.polygon);
+    void observe(const BspBuilder<2>::Placed& event) {
+        const bool both = event.side == PlaneSide::straddling;
+        if (both || event.side == PlaneSide::front) front.back() += name(event.fragment.polygon);
+        if (both || event.side == PlaneSide::back) back.back() += name(event.fragment.polygon);
     }
-    template <int D>
-    void cut(const Fragment<D>& whole, const Fragment<D>&, const Fragment<D>&) {
-        cuts += name(whole.polygon);
-    }
+    void observe(const BspBuilder<2>::Cut& event) { cuts += name(event.whole.polygon); }
 };
 
 std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) {
@@ -51,13 +46,14 @@ std::vector<Triangle> soup(std::uint32_t count, float size, std::uint64_t seed) 
 }  // namespace
 
 TEST_CASE("the splitters G, E, B, A give the sets and the tree that Heinonen16 prints") {
-    const std::vector<Corners<2>> segments = corners(heinonen_segments());
+    const std::vector<Segment> segments = heinonen_segments();
     const std::uint32_t order[] = {6, 4, 1, 0};
     for (const Grade grade :
          {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
         Sets sets;
-        const BspTree<2> tree = BspBuilder<2, Sets&>::build(
-            segments, {.splitter = SplitterChoice::first, .grade = grade, .order = order}, sets);
+        const BspTree<2> tree = BspBuilder<2>::build(
+            segments,
+            {.splitter = BspConfig::SplitterChoice::first, .grade = grade, .order = order}, sets);
         CHECK(sets.splitters.front() == 'G');
         CHECK(sets.front[0] == "ABC");
         CHECK(sets.back[0] == "DEF");
@@ -81,7 +77,7 @@ TEST_CASE("the suite: BSP tree") {
 TEST_CASE("the suite: BSP tree with free planes, over the exact test") {
     const SuiteReport report = check_accelerator<Bsp<FilteredExact>, FilteredExact>(
         "bsp, free planes, exact test", [](std::span<const Triangle> t) {
-            return Bsp<FilteredExact>::build(t, {.splitter = SplitterChoice::free});
+            return Bsp<FilteredExact>::build(t, {.splitter = BspConfig::SplitterChoice::free});
         });
     CHECK(report.exact.wrong() == 0);
     CHECK(report.exact.beyond_bound == 0);
@@ -92,7 +88,8 @@ TEST_CASE(
     "plane") {
     // Where every polygon crosses every plane there are 2^n references: no scene for sharing.
     const auto build = [](std::span<const Triangle> t) {
-        return Bsp<>::build(t, {.straddlers = Straddlers::share, .max_fragments = 30'000});
+        return Bsp<>::build(t,
+                            {.straddlers = BspConfig::Straddlers::share, .max_fragments = 30'000});
     };
     SuiteOptions options;
     std::vector<std::string> refused;
@@ -100,7 +97,7 @@ TEST_CASE(
         try {
             build(scene.triangles);
             return false;
-        } catch (const Error&) {
+        } catch (const LimitError&) {
             refused.push_back(scene.name);
             return true;
         }
@@ -116,10 +113,12 @@ TEST_CASE("every grade and choice of splitters gives the naive loop's hits on ra
     const auto naive = Naive<FilteredExact>::build(triangles);
     for (const Grade grade :
          {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact})
-        for (const SplitterChoice splitter :
-             {SplitterChoice::first, SplitterChoice::random, SplitterChoice::balanced,
-              SplitterChoice::fewest_splits, SplitterChoice::weighted, SplitterChoice::free})
-            for (const Straddlers straddlers : {Straddlers::split, Straddlers::share}) {
+        for (const BspConfig::SplitterChoice splitter :
+             {BspConfig::SplitterChoice::first, BspConfig::SplitterChoice::random,
+              BspConfig::SplitterChoice::balanced, BspConfig::SplitterChoice::fewest_splits,
+              BspConfig::SplitterChoice::weighted, BspConfig::SplitterChoice::free})
+            for (const BspConfig::Straddlers straddlers :
+                 {BspConfig::Straddlers::split, BspConfig::Straddlers::share}) {
                 const auto bsp = Bsp<FilteredExact>::build(triangles, {.splitter = splitter,
                                                                        .straddlers = straddlers,
                                                                        .grade = grade,
@@ -142,9 +141,10 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
     const std::vector<Triangle> triangles = mount.mesh.triangles();
     const auto naive = Naive<FilteredExact>::build(triangles);
     const auto wrong_rays = [&](Grade grade) {
-        const auto bsp = Bsp<FilteredExact>::build(
-            triangles,
-            {.splitter = SplitterChoice::random, .grade = grade, .thickness_in_roundings = 1000.0});
+        const auto bsp =
+            Bsp<FilteredExact>::build(triangles, {.splitter = BspConfig::SplitterChoice::random,
+                                                  .grade = grade,
+                                                  .thickness_in_roundings = 1000.0});
         Pcg32 random(3);
         int wrong = 0;
         for (int i = 0; i < 10'000; ++i) {  // at points of cuts and edges
@@ -166,7 +166,7 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
 }
 
 TEST_CASE("a tree that would have more fragments than allowed is refused with one line") {
-    CHECK_THROWS_AS(Bsp<>::build(soup(100, 1.0f, 6), {.max_fragments = 200}), Error);
+    CHECK_THROWS_AS(Bsp<>::build(soup(100, 1.0f, 6), {.max_fragments = 200}), LimitError);
 }
 
 TEST_CASE(
@@ -175,7 +175,7 @@ TEST_CASE(
     const std::vector<Triangle> sphere =
         make_scene("icosphere:6").mesh.triangles();  // 720 of them: a chain
     CHECK_NOTHROW(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2}));
-    CHECK_THROWS_AS(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2 - 1}), Error);
-    CHECK_NOTHROW(
-        Bsp<>::build(sphere, {.splitter = SplitterChoice::free, .max_placed = 720 * 721 / 10}));
+    CHECK_THROWS_AS(Bsp<>::build(sphere, {.max_placed = 720 * 721 / 2 - 1}), LimitError);
+    CHECK_NOTHROW(Bsp<>::build(
+        sphere, {.splitter = BspConfig::SplitterChoice::free, .max_placed = 720 * 721 / 10}));
 }

@@ -26,10 +26,10 @@ constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ord
 
 /// Every polygon cut by every plane, one after the other, without a tree; of the polygons only
 /// every `every`-th.
-std::vector<Fragment<3>> cut_by_all(const std::vector<Corners<3>>& polygons,
+std::vector<Fragment<3>> cut_by_all(const std::vector<Triangle>& polygons,
                                     const std::vector<SplitPlane<3>>& planes, Grade grade,
                                     double thickness, std::uint32_t every = 1) {
-    const Splitter<3> splitter(polygons, planes, grade, thickness);
+    const Cutter<3> cutter(polygons, planes, grade, thickness);
     std::vector<Fragment<3>> all;
     std::vector<int> sides;
     for (std::uint32_t i = 0; i < polygons.size(); ++i) {
@@ -37,14 +37,14 @@ std::vector<Fragment<3>> cut_by_all(const std::vector<Corners<3>>& polygons,
         for (std::uint32_t plane = 0; plane < planes.size() && i % every == 0; ++plane) {
             std::vector<Fragment<3>> finer;
             for (Fragment<3>& piece : pieces) {
-                splitter.classify(piece, plane, sides);
-                if (Splitter<3>::place(sides) != Side::across) {
+                cutter.corner_sides(piece, plane, sides);
+                if (Cutter<3>::classify(sides) != PlaneSide::straddling) {
                     finer.push_back(std::move(piece));
                     continue;
                 }
-                auto [front, back] = splitter.split(piece, sides, plane);
+                auto [front, back] = cutter.split(piece, sides, plane);
                 for (Fragment<3>* half : {&front, &back})
-                    if (grade == Grade::exact || Splitter<3>::has_extent(*half))
+                    if (grade == Grade::exact || Cutter<3>::has_extent(*half))
                         finer.push_back(std::move(*half));
             }
             pieces = std::move(finer);
@@ -60,7 +60,7 @@ std::vector<SplitPlane<3>> random_planes(int count, std::uint64_t seed) {
     std::vector<SplitPlane<3>> planes;
     for (int i = 0; i < count; ++i) {
         const Point3 a = random_point(random, -0.5f, 0.5f), b = random_point(random, -1, 1);
-        planes.emplace_back(Corners<3>{a, b, random_point(random, -1, 1)});
+        planes.emplace_back(Triangle{a, b, random_point(random, -1, 1)});
     }
     return planes;
 }
@@ -75,17 +75,17 @@ TEST_CASE(
     "P1: near a plane the sign of its float equation is a coin toss; thick planes and exact signs "
     "are not wrong") {
     Pcg32 random(1);
-    const std::vector<Corners<3>> none;
     int plain_wrong = 0, thick_wrong = 0, thick_on = 0, exact_wrong = 0, far = 0, filtered = 0;
     for (int i = 0; i < points; ++i) {
         const Point3 a = random_point(random, -1, 1), b = random_point(random, -1, 1),
                      c = random_point(random, -1, 1);
         const std::vector<SplitPlane<3>> planes{SplitPlane<3>({a, b, c})};
         const float u = random.uniform(), v = random.uniform();
-        const Fragment<3> fragment = whole_polygon<3>({a + u * (b - a) + v * (c - a), a, b}, 0);
+        const std::vector<Triangle> polygons{{a + u * (b - a) + v * (c - a), a, b}};
+        const Fragment<3> fragment = whole_polygon<3>(polygons[0], 0);
         const auto side = [&](Grade grade, double thickness) {
             std::vector<int> sides;
-            Splitter<3>(none, planes, grade, thickness).classify(fragment, 0, sides);
+            Cutter<3>(polygons, planes, grade, thickness).corner_sides(fragment, 0, sides);
             return sides[0];
         };
         const int expected = cgal_side(planes[0].through, fragment.corners[0].at),
@@ -117,24 +117,24 @@ TEST_CASE(
     "P2: a plane without thickness cuts by noise, thick planes are not transitive; exact planes "
     "need no thickness") {
     const double eps = 0x1p-20;
-    const std::vector<SplitPlane<3>> ground{SplitPlane<3>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})};
+    const std::vector<SplitPlane<3>> ground{SplitPlane<3>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})};
     // Corners at +eps/2 and -2 eps: noise of the plane says across, and a piece of next to nothing
     // comes off.
-    const std::vector<Corners<3>> noisy{{{{0, 0, 0x1p-21f}, {1, 0, -0x1p-19f}, {0, 1, -0x1p-19f}}}};
+    const std::vector<Triangle> noisy{{{0, 0, 0x1p-21f}, {1, 0, -0x1p-19f}, {0, 1, -0x1p-19f}}};
     const auto place = [&](double thickness) {
         std::vector<int> sides;
-        Splitter<3>(noisy, ground, Grade::ordered_float, thickness)
-            .classify(whole_polygon<3>(noisy[0], 0), 0, sides);
-        return Splitter<3>::place(sides);
+        Cutter<3>(noisy, ground, Grade::ordered_float, thickness)
+            .corner_sides(whole_polygon<3>(noisy[0], 0), 0, sides);
+        return Cutter<3>::classify(sides);
     };
-    CHECK(place(0.0) == Side::across);
-    CHECK(place(eps) == Side::back);
+    CHECK(place(0.0) == PlaneSide::straddling);
+    CHECK(place(eps) == PlaneSide::back);
 
     // Three planes 3/4 of a thickness apart: each is on the next, the first is not on the last.
     // Which comes first decides.
-    const auto level = [](float z) { return Corners<3>{{{0, 0, z}, {1, 0, z}, {0, 1, z}}}; };
-    const std::vector<Corners<3>> three{level(1.0f), level(1.0f + 3 * 0x1p-23f),
-                                        level(1.0f + 6 * 0x1p-23f)};
+    const auto level = [](float z) { return Triangle{{0, 0, z}, {1, 0, z}, {0, 1, z}}; };
+    const std::vector<Triangle> three{level(1.0f), level(1.0f + 3 * 0x1p-23f),
+                                      level(1.0f + 6 * 0x1p-23f)};
     const auto nodes = [&](Grade grade, std::uint32_t first) {
         const std::uint32_t order[] = {first};
         return BspBuilder<3>::build(three, {.grade = grade, .order = order}).nodes.size();
@@ -144,13 +144,13 @@ TEST_CASE(
     for (const std::uint32_t first : {0u, 1u, 2u}) CHECK(nodes(Grade::exact, first) == 3);
 
     // Slivers are geometric, not only noise: they stay in exact arithmetic.
-    const std::vector<Corners<3>> triangle{{{{0, 0, 0}, {10, 1, 0}, {1, 10, 0}}}};
+    const std::vector<Triangle> triangle{{{0, 0, 0}, {10, 1, 0}, {1, 10, 0}}};
     std::vector<SplitPlane<3>> planes;
     Pcg32 random(3);
     for (int i = 0; i < 14; ++i) {
         const Aabb flat{{1, 1, 0}, {5, 5, 0}};
         const Point3 a = random_point(random, flat), b = random_point(random, flat);
-        planes.emplace_back(Corners<3>{a, b, a + Vector3(0, 0, 1)});
+        planes.emplace_back(Triangle{a, b, a + Vector3(0, 0, 1)});
     }
     for (const Grade grade : {Grade::ordered_float, Grade::exact}) {
         const auto fragments = cut_by_all(triangle, planes, grade, float_thickness(10.0));
@@ -180,22 +180,22 @@ TEST_CASE(
     int differ[4] = {};
     for (int i = 0; i < points / 10; ++i) {
         const Point3 p = random_point(random, -1, 1), q = random_point(random, -1, 1);
-        const std::vector<Corners<3>> pair{{{p, q, random_point(random, -1, 1)}},
-                                           {{q, p, random_point(random, -1, 1)}}};
+        const std::vector<Triangle> pair{{p, q, random_point(random, -1, 1)},
+                                         {q, p, random_point(random, -1, 1)}};
         const std::vector<SplitPlane<3>> planes = random_planes(1, random.next());
         for (std::size_t g = 0; g < 4; ++g) {
-            const Splitter<3> splitter(pair, planes, grades[g], 0.0);
+            const Cutter<3> cutter(pair, planes, grades[g], 0.0);
             std::optional<Double3> cut[2];
             for (std::uint32_t k = 0; k < 2; ++k) {
                 const Fragment<3> fragment = whole_polygon<3>(pair[k], k);
                 std::vector<int> sides;
-                splitter.classify(fragment, 0, sides);
+                cutter.corner_sides(fragment, 0, sides);
                 if (sides[0] * sides[1] >= 0) continue;
-                const auto [front, back] = splitter.split(fragment, sides, 0);
+                const auto [front, back] = cutter.split(fragment, sides, 0);
                 for (const Fragment<3>* half :
                      {&front, &back})  // the corner that edge 0 ends at, or begins with
                     for (std::size_t c = 0; c < half->corners.size(); ++c)
-                        if (half->corners[c].carrier == Carrier::original(0) &&
+                        if (half->corners[c].carriers.back() == Carrier::original(0) &&
                             half->corners[c].at != Double3(pair[k][0]))
                             cut[k] = half->corners[c].at;
             }
@@ -212,7 +212,7 @@ TEST_CASE(
     CHECK(differ[3] == 0);
 
     const std::vector<Triangle> sphere = icosphere(8).triangles();
-    const auto polygons = corners(sphere);
+    const auto polygons = sphere;
     const auto planes = random_planes(16, 5);
     for (const Grade grade : grades) {
         const auto fragments = cut_by_all(polygons, planes, grade, 0.0);
@@ -232,7 +232,7 @@ TEST_CASE(
     "P4: where only one of two neighbours is cut, rays leak through the T-junction; the original "
     "triangles and exact corners close it") {
     const std::vector<Triangle> sphere = icosphere(8).triangles();
-    const auto polygons = corners(sphere);
+    const auto polygons = sphere;
     const auto planes = random_planes(16, 8);
     const auto bsp = Bsp<FilteredExact>::build(sphere);
     for (const Grade grade : grades) {
@@ -252,20 +252,20 @@ TEST_CASE(
 }
 
 TEST_CASE("P5: cuts of cuts drift off the plane and lose area; exact corners don't") {
-    const std::vector<Corners<3>> triangle{{{{0, 0, 0.3f}, {10, 1, 1.7f}, {1, 10, -2.1f}}}};
+    const std::vector<Triangle> triangle{{{0, 0, 0.3f}, {10, 1, 1.7f}, {1, 10, -2.1f}}};
     std::vector<SplitPlane<3>> planes;
     Pcg32 random(10);
     const auto place = [&] { return random_point(random, Aabb{{1, 1, -1}, {5, 5, 1}}); };
     for (int i = 0; i < 14; ++i) {
         const Point3 a = place(), b = place();
-        planes.emplace_back(Corners<3>{a, b, place()});
+        planes.emplace_back(Triangle{a, b, place()});
     }
     for (const Grade grade : grades) {
         const auto fragments = cut_by_all(triangle, planes, grade, 0.0);
         const double error = area_errors({triangle, planes, fragments, grade})[0];
         int off = 0, corners_seen = 0;
         for (const Fragment<3>& f : fragments)
-            for (const Corner<3>& c : f.corners) {
+            for (const auto& c : f.corners) {
                 off += cgal_side(triangle[0], c.at) != 0;
                 ++corners_seen;
             }
@@ -284,18 +284,18 @@ TEST_CASE("P5: cuts of cuts drift off the plane and lose area; exact corners don
 TEST_CASE(
     "P6: without a place for coplanar polygons they are lost or never end; in the node they are "
     "kept") {
-    const Corners<3> one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
-        overlapping{{{0.2f, 0.2f, 0}, {2, 0, 0}, {0, 2, 0}}};
-    const std::vector<Corners<3>> same{one, one}, overlap{one, overlapping};
+    const Triangle one{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+        overlapping{{0.2f, 0.2f, 0}, {2, 0, 0}, {0, 2, 0}};
+    const std::vector<Triangle> same{one, one}, overlap{one, overlapping};
     for (const auto& polygons : {same, overlap}) {
         const std::vector<SplitPlane<3>> planes{SplitPlane<3>(one)};
         std::vector<int> sides;
         int strictly = 0, loosely = 0;
-        for (const Corners<3>& polygon : polygons) {
-            Splitter<3>(polygons, planes, Grade::exact, 0.0)
-                .classify(whole_polygon<3>(polygon, 0), 0, sides);
-            strictly +=
-                Splitter<3>::place(sides) == Side::front || Splitter<3>::place(sides) == Side::back;
+        for (std::uint32_t i = 0; i < polygons.size(); ++i) {
+            Cutter<3>(polygons, planes, Grade::exact, 0.0)
+                .corner_sides(whole_polygon<3>(polygons[i], i), 0, sides);
+            strictly += Cutter<3>::classify(sides) == PlaneSide::front ||
+                        Cutter<3>::classify(sides) == PlaneSide::back;
             loosely += std::all_of(sides.begin(), sides.end(), [](int side) { return side <= 0; });
         }
         CHECK(strictly == 0);  // "in front or behind": both are lost
@@ -311,17 +311,17 @@ TEST_CASE(
 TEST_CASE("P7: fragments grow faster than n; more candidates cut less; the bound stops in time") {
     std::array<double, 2> before{};
     for (const std::uint32_t n : sizes) {
-        const auto polygons = corners(scenes::soup(n, 1.0f, 11));
-        const auto growth = [&](SplitterChoice choice, std::uint32_t candidates) {
+        const auto polygons = scenes::soup(n, 1.0f, 11);
+        const auto growth = [&](BspConfig::SplitterChoice choice, std::uint32_t candidates) {
             const BspTree<3> tree =
                 BspBuilder<3>::build(polygons, {.splitter = choice, .candidates = candidates});
             return static_cast<double>(tree.fragments.size()) / n;
         };
-        const double first = growth(SplitterChoice::first, 1),
-                     best = growth(SplitterChoice::fewest_splits, 8),
-                     weighted = growth(SplitterChoice::weighted, 8);
+        const double first = growth(BspConfig::SplitterChoice::first, 1),
+                     best = growth(BspConfig::SplitterChoice::fewest_splits, 8),
+                     weighted = growth(BspConfig::SplitterChoice::weighted, 8);
         fmt::print(
-            "  P7: {} large triangles: {:.0f} fragments of each with the first splitter, {:.0f} "
+            "  P7: {} large triangles: {:.0f} fragments of each with the first cutter, {:.0f} "
             "with the one of 8 that cuts fewest, "
             "{:.0f} with the weighted one\n",
             n, first, best, weighted);
@@ -332,7 +332,7 @@ TEST_CASE("P7: fragments grow faster than n; more candidates cut less; the bound
         CHECK(weighted < first);
         before = {first, best};
         CHECK_THROWS_AS(BspBuilder<3>::build(polygons, {.max_fragments = std::size_t{5} * n}),
-                        Error);
+                        LimitError);
     }
 }
 
@@ -344,21 +344,22 @@ TEST_CASE(
         const double angle = 3.14159265358979323846 * i / rows;
         profile.emplace_back(i == 0 || i == rows ? 0.0 : std::sin(angle), -std::cos(angle));
     }
-    const auto polygons = corners(lathe(profile, 24).triangles());
-    const auto build = [&](SplitterChoice choice) {
+    const auto polygons = lathe(profile, 24).triangles();
+    const auto build = [&](BspConfig::SplitterChoice choice) {
         return BspBuilder<3>::build(polygons, {.splitter = choice});
     };
     const std::size_t faces = polygons.size();
     CHECK(faces == 2 * 24 * (rows - 1));
-    for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::random,
-                                        SplitterChoice::balanced, SplitterChoice::weighted}) {
+    for (const BspConfig::SplitterChoice choice :
+         {BspConfig::SplitterChoice::first, BspConfig::SplitterChoice::random,
+          BspConfig::SplitterChoice::balanced, BspConfig::SplitterChoice::weighted}) {
         const BspTree<3> tree = build(choice);
         fmt::print("  P8: sphere of {} faces, choice {}: depth {}, {} fragments\n", faces,
                    static_cast<int>(choice), tree.depth(), tree.fragments.size());
         CHECK(tree.depth() > faces / 3);
         CHECK(tree.fragments.size() < 3 * faces);
     }
-    const BspTree<3> free = build(SplitterChoice::free);
+    const BspTree<3> free = build(BspConfig::SplitterChoice::free);
     fmt::print("  P8: sphere of {} faces, free planes: depth {}, {} fragments\n", faces,
                free.depth(), free.fragments.size());
     CHECK(free.depth() < 40);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <variant>
 
 namespace space {
 namespace {
@@ -16,68 +17,77 @@ using Number = Kernel::FT;
 using Exact2 = Kernel::Point_2;
 using Exact3d = Kernel::Point_3;
 
-Exact2 exact(const DoublePoint<2>& p) {
+Exact2 exact(const Double2& p) {
     return {p.x, p.y};
 }
-Exact3d exact(const DoublePoint<3>& p) {
+Exact3d exact(const Double3& p) {
     return {p.x, p.y, p.z};
 }
 Exact2 exact(const Point<2>& p) {
-    return exact(DoublePoint<2>(p));
+    return exact(Double2(p));
 }
 Exact3d exact(const Point<3>& p) {
-    return exact(DoublePoint<3>(p));
+    return exact(Double3(p));
 }
 
-Kernel::Plane_3 exact_plane(const Corners<3>& p) {
+Kernel::Plane_3 exact_plane(const Triangle& p) {
     return {exact(p[0]), exact(p[1]), exact(p[2])};
 }
-Kernel::Line_2 exact_line(const Corners<2>& p) {
+Kernel::Line_2 exact_line(const Segment& p) {
     return {exact(p[0]), exact(p[1])};
 }
-Kernel::Line_3 exact_edge(const Corners<3>& p, int edge) {
-    return {exact(p[static_cast<std::size_t>(edge)]),
-            exact(p[static_cast<std::size_t>((edge + 1) % 3)])};
+Kernel::Line_3 exact_edge(const Triangle& p, int edge) {
+    return {exact(p[edge]), exact(p[(edge + 1) % 3])};
 }
 
+/// CGAL 6 gives an intersection as std::optional<std::variant<...>>, CGAL 5 as boost's two.
 template <class Point, class Intersection>
 std::optional<Point> single_point(const Intersection& intersection) {
     if (!intersection) return std::nullopt;
+#if CGAL_VERSION_NR >= 1060000000
+    const Point* point = std::get_if<Point>(&*intersection);
+#else
     const Point* point = boost::get<Point>(&*intersection);
+#endif
     return point ? std::optional(*point) : std::nullopt;
 }
 
-std::optional<Exact3d> exact_meet(const Meet3& m) {
-    const Corners<3>& polygon = *m.polygon;
-    const auto line_meets = [&](int edge, const Corners<3>& plane) -> std::optional<Exact3d> {
-        if (CGAL::collinear(exact(plane[0]), exact(plane[1]), exact(plane[2]))) return std::nullopt;
-        const auto e = static_cast<std::size_t>(edge);
-        if (polygon[e] == polygon[(e + 1) % 3]) return std::nullopt;
-        return single_point<Exact3d>(
-            CGAL::intersection(exact_edge(polygon, edge), exact_plane(plane)));
-    };
-    if (m.first_edge >= 0 && m.second_edge >= 0) {
-        if (m.first_edge == m.second_edge) return std::nullopt;
-        const int after = (m.first_edge + 1) % 3 == m.second_edge ? m.second_edge : m.first_edge;
-        return exact(polygon[static_cast<std::size_t>(after)]);
-    }
-    if (m.first_edge >= 0) return line_meets(m.first_edge, *m.second_plane);
-    if (m.second_edge >= 0) return line_meets(m.second_edge, *m.first_plane);
-    for (const Corners<3>* p : {m.polygon, m.first_plane, m.second_plane})
-        if (CGAL::collinear(exact((*p)[0]), exact((*p)[1]), exact((*p)[2]))) return std::nullopt;
-    return single_point<Exact3d>(CGAL::intersection(
-        exact_plane(polygon), exact_plane(*m.first_plane), exact_plane(*m.second_plane)));
-}
-std::optional<Exact2> exact_meet(const Meet2& m) {
-    const Corners<2>&polygon = *m.polygon, &line = *m.line;
-    if (polygon[0] == polygon[1] || line[0] == line[1]) return std::nullopt;
-    return single_point<Exact2>(CGAL::intersection(exact_line(polygon), exact_line(line)));
+bool is_plane(const Triangle& p) {
+    return !CGAL::collinear(exact(p[0]), exact(p[1]), exact(p[2]));
 }
 
-int side_of(const Corners<3>& plane, const Exact3d& p) {
+/// Nothing where the polygon and its carriers don't meet in one point.
+std::optional<Exact3d> exact_meet(const Meet<3>& m) {
+    auto [first, second] = m.carriers;
+    const auto plane = [&](Carrier c) { return m.planes[c.number()].through; };
+    if (first.is_original() && second.is_original()) {
+        if (first == second) return std::nullopt;
+        const bool in_order = (first.edge() + 1) % 3 == second.edge();
+        return exact(m.polygon[in_order ? second.edge() : first.edge()]);
+    }
+    if (!first.is_original()) std::swap(first, second);
+    if (!is_plane(plane(second))) return std::nullopt;
+    if (first.is_original()) {
+        if (m.polygon[first.edge()] == m.polygon[(first.edge() + 1) % 3]) return std::nullopt;
+        return single_point<Exact3d>(
+            CGAL::intersection(exact_edge(m.polygon, first.edge()), exact_plane(plane(second))));
+    }
+    if (!is_plane(plane(first)) || !is_plane(m.polygon)) return std::nullopt;
+    return single_point<Exact3d>(CGAL::intersection(
+        exact_plane(m.polygon), exact_plane(plane(first)), exact_plane(plane(second))));
+}
+std::optional<Exact2> exact_meet(const Meet<2>& m) {
+    const Carrier end = m.carriers[0];
+    if (end.is_original()) return exact(m.polygon[end.edge()]);
+    const Segment& line = m.planes[end.number()].through;
+    if (m.polygon.a == m.polygon.b || line.a == line.b) return std::nullopt;
+    return single_point<Exact2>(CGAL::intersection(exact_line(m.polygon), exact_line(line)));
+}
+
+int side_of(const Triangle& plane, const Exact3d& p) {
     return CGAL::orientation(exact(plane[0]), exact(plane[1]), exact(plane[2]), p);
 }
-int side_of(const Corners<2>& line, const Exact2& p) {
+int side_of(const Segment& line, const Exact2& p) {
     return CGAL::orientation(exact(line[0]), exact(line[1]), p);
 }
 
@@ -97,43 +107,24 @@ double rounded(const Number& x) {
 
 /// The exact corner, or nothing where its carriers don't give one, or give one that its double is
 /// too far from.
-std::optional<Exact3d> exact_corner(const FragmentsView<3>& view, const Fragment<3>& fragment,
-                                    std::size_t i) {
-    const Corner<3>& corner = fragment.corners[i];
+template <int D>
+auto exact_corner(const FragmentsView<D>& view, const Fragment<D>& fragment, std::size_t i)
+    -> std::optional<decltype(exact(Double<D>()))> {
+    const auto& corner = fragment.corners[i];
     if (view.grade != Grade::exact) return exact(corner.at);
-    const std::size_t count = fragment.corners.size();
-    const Carrier before = fragment.corners[(i + count - 1) % count].carrier,
-                  after = corner.carrier;
-    const auto edge = [](Carrier c) { return c.is_original() ? c.edge() : -1; };
-    const auto plane = [&](Carrier c) {
-        return c.is_original() ? nullptr : &view.planes[c.number()].through;
-    };
-    const auto point = exact_meet(Meet3{&view.polygons[fragment.polygon], edge(before), edge(after),
-                                        plane(before), plane(after)});
-    if (!point || !encloses(corner, *point, 3)) return std::nullopt;
-    return point;
-}
-std::optional<Exact2> exact_corner(const FragmentsView<2>& view, const Fragment<2>& fragment,
-                                   std::size_t i) {
-    const Corner<2>& corner = fragment.corners[i];
-    if (view.grade != Grade::exact) return exact(corner.at);
-    const Corners<2>& polygon = view.polygons[fragment.polygon];
-    if (corner.carrier.is_original()) {
-        const Exact2 point = exact(polygon[static_cast<std::size_t>(corner.carrier.edge())]);
-        return encloses(corner, point, 2) ? std::optional(point) : std::nullopt;
-    }
-    const auto point = exact_meet(Meet2{&polygon, &view.planes[corner.carrier.number()].through});
-    if (!point || !encloses(corner, *point, 2)) return std::nullopt;
+    const auto point =
+        exact_meet(Meet<D>{view.polygons[fragment.polygon], corner.carriers, view.planes});
+    if (!point || !encloses(corner, *point, D)) return std::nullopt;
     return point;
 }
 
-Kernel::Vector_3 normal_of(const Corners<3>& polygon) {
+Kernel::Vector_3 normal_of(const Triangle& polygon) {
     return CGAL::cross_product(exact(polygon[1]) - exact(polygon[0]),
                                exact(polygon[2]) - exact(polygon[0]));
 }
 
 /// Of the polygon's normal: drawn onto the plane across it, the polygon keeps an area.
-int dominant_axis(const Corners<3>& polygon) {
+int dominant_axis(const Triangle& polygon) {
     const Kernel::Vector_3 normal = normal_of(polygon);
     int best = 0;
     for (int axis = 1; axis < 3; ++axis)
@@ -143,7 +134,7 @@ int dominant_axis(const Corners<3>& polygon) {
 /// Drops the axis; the polygon turns left.
 class Projection {
   public:
-    explicit Projection(const Corners<3>& polygon) : drop_(dominant_axis(polygon)) {
+    explicit Projection(const Triangle& polygon) : drop_(dominant_axis(polygon)) {
         mirrored_ = CGAL::orientation((*this)(exact(polygon[0])), (*this)(exact(polygon[1])),
                                       (*this)(exact(polygon[2]))) == CGAL::RIGHT_TURN;
     }
@@ -215,7 +206,7 @@ std::vector<std::vector<Step>> paths(const BspTree<D>& tree) {
         for (const auto& [child, side] :
              {std::pair{tree.nodes[i].front, 1}, {tree.nodes[i].back, -1}})
             if (child != BspTree<D>::none) {
-                auto& path = all[static_cast<std::size_t>(child)];
+                auto& path = all[child];
                 path = all[i];
                 path.push_back({tree.nodes[i].plane, side});
             }
@@ -233,25 +224,25 @@ void add_area(TilingReport& report, const Number& sum, const Number& area) {
 
 }  // namespace
 
-int cgal_side(const Corners<3>& plane, const DoublePoint<3>& point) {
+int cgal_side(const Triangle& plane, const Double3& point) {
     return side_of(plane, exact(point));
 }
-int cgal_side(const Corners<2>& line, const DoublePoint<2>& point) {
+int cgal_side(const Segment& line, const Double2& point) {
     return side_of(line, exact(point));
 }
-std::optional<int> cgal_side(const Corners<3>& plane, const Meet3& meet) {
+std::optional<int> cgal_side(const Triangle& plane, const Meet<3>& meet) {
     const auto point = exact_meet(meet);
     return point ? std::optional(side_of(plane, *point)) : std::nullopt;
 }
-std::optional<int> cgal_side(const Corners<2>& line, const Meet2& meet) {
+std::optional<int> cgal_side(const Segment& line, const Meet<2>& meet) {
     const auto point = exact_meet(meet);
     return point ? std::optional(side_of(line, *point)) : std::nullopt;
 }
 
-bool cgal_encloses(const Approximation<3>& approximation, const Meet3& meet) {
+bool cgal_encloses(const Approximation<3>& approximation, const Meet<3>& meet) {
     return encloses(approximation, *exact_meet(meet), 3);
 }
-bool cgal_encloses(const Approximation<2>& approximation, const Meet2& meet) {
+bool cgal_encloses(const Approximation<2>& approximation, const Meet<2>& meet) {
     return encloses(approximation, *exact_meet(meet), 2);
 }
 
@@ -299,7 +290,7 @@ TilingReport examine_tiling(const BspTree<3>& tree, Grade grade, std::uint32_t e
 
     TilingReport report;
     for (std::size_t number = 0; number < tree.polygons.size(); number += every) {
-        const Corners<3>& polygon = tree.polygons[number];
+        const Triangle& polygon = tree.polygons[number];
         if (CGAL::collinear(exact(polygon[0]), exact(polygon[1]), exact(polygon[2]))) {
             report.wrong_area += !pieces[number].empty();
             continue;
@@ -359,7 +350,7 @@ TilingReport examine_tiling(const BspTree<2>& tree, Grade grade) {
     for (std::size_t node = 0; node < tree.nodes.size(); ++node)
         for (std::uint32_t f = 0; f < tree.nodes[node].count; ++f) {
             const Fragment<2>& fragment = tree.fragments[tree.nodes[node].first + f];
-            const Corners<2>& polygon = tree.polygons[fragment.polygon];
+            const Segment& polygon = tree.polygons[fragment.polygon];
             const auto along = exact(polygon[1]) - exact(polygon[0]);
             ++report.fragments;
             std::vector<Number> ends;
@@ -386,7 +377,7 @@ TilingReport examine_tiling(const BspTree<2>& tree, Grade grade) {
             pieces[fragment.polygon].push_back({ends[0], ends[1]});
         }
     for (std::size_t number = 0; number < tree.polygons.size(); ++number) {
-        const Corners<2>& polygon = tree.polygons[number];
+        const Segment& polygon = tree.polygons[number];
         if (polygon[0] == polygon[1]) continue;
         ++report.polygons;
         auto& of = pieces[number];
@@ -406,7 +397,7 @@ TilingReport examine_tiling(const BspTree<2>& tree, Grade grade) {
 std::vector<double> area_errors(const FragmentsView<3>& all) {
     std::vector<Kernel::Vector_3> normals;
     std::vector<Number> errors;
-    for (const Corners<3>& polygon : all.polygons) {
+    for (const Triangle& polygon : all.polygons) {
         normals.push_back(normal_of(polygon));
         errors.push_back(-normals.back().squared_length());
     }
@@ -450,8 +441,8 @@ int CgalFragments::side_of_edge(const Ray& ray, std::uint32_t fragment, std::siz
     // A term of the volume carries at most seven roundings; 1-norms bound the sums of the products'
     // sizes. A corner that is off by e in every coordinate moves it by at most 3 e times the other
     // factors; 2^-48 leaves room for the bound's own roundings.
-    const Corner<3>&p = view_.fragments[fragment].corners[corner],
-          &q = view_.fragments[fragment].corners[next];
+    const auto &p = view_.fragments[fragment].corners[corner],
+               &q = view_.fragments[fragment].corners[next];
     const auto size = [](const Double3& v) {
         return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     };

@@ -14,16 +14,16 @@
 namespace space {
 
 /// 1 in front of the plane, 0 on it, -1 behind. The corners of the plane may lie on a line: then 0.
-int cgal_side(const Corners<3>& plane, const DoublePoint<3>& point);
-int cgal_side(const Corners<2>& line, const DoublePoint<2>& point);
+int cgal_side(const Triangle& plane, const Double3& point);
+int cgal_side(const Segment& line, const Double2& point);
 /// Nothing where the meet is no single point.
-std::optional<int> cgal_side(const Corners<3>& plane, const Meet3& meet);
-std::optional<int> cgal_side(const Corners<2>& line, const Meet2& meet);
+std::optional<int> cgal_side(const Triangle& plane, const Meet<3>& meet);
+std::optional<int> cgal_side(const Segment& line, const Meet<2>& meet);
 
 /// Every coordinate of the exact meet lies within the approximation's error. Asked of single points
 /// only.
-bool cgal_encloses(const Approximation<3>& approximation, const Meet3& meet);
-bool cgal_encloses(const Approximation<2>& approximation, const Meet2& meet);
+bool cgal_encloses(const Approximation<3>& approximation, const Meet<3>& meet);
+bool cgal_encloses(const Approximation<2>& approximation, const Meet<2>& meet);
 
 /// The point lies in the closed triangle.
 bool cgal_has_on(const Triangle& triangle, const Point3& point);
@@ -32,7 +32,7 @@ bool cgal_has_on(const Triangle& triangle, const Point3& point);
 /// in the others it is its double coordinates as they stand.
 template <int D>
 struct FragmentsView {
-    std::span<const Corners<D>> polygons;
+    std::span<const Simplex<D>> polygons;
     std::span<const SplitPlane<D>> planes;
     std::span<const Fragment<D>> fragments;
     Grade grade;

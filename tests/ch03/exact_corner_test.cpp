@@ -58,38 +58,52 @@ float far_away(Pcg32& random) {
     return 1e5f + random.uniform(-1.0f, 1.0f);
 }
 
+/// The points that make(i) gives for i = 0 .. D - 1.
+template <int D, class Make>
+Simplex<D> simplex_of(const Make& make) {
+    const Point<D> first = make(0), second = make(1);
+    if constexpr (D == 2)
+        return {first, second};
+    else
+        return {first, second, make(2)};
+}
 template <int D>
-Corners<D> corners_of(Pcg32& random, const MakeFloat& number) {
-    Corners<D> points;
-    for (auto& point : points)
+Simplex<D> random_simplex(Pcg32& random, const MakeFloat& number) {
+    return simplex_of<D>([&](int) {
+        Point<D> point;
         for (int axis = 0; axis < D; ++axis) point[axis] = number(random);
-    return points;
+        return point;
+    });
 }
 
 /// Every coordinate moved by up to two floats: planes that meet at tiny angles.
 template <int D>
-Corners<D> nudged(Corners<D> points, Pcg32& random) {
-    for (auto& point : points)
+Simplex<D> nudged(const Simplex<D>& points, Pcg32& random) {
+    return simplex_of<D>([&](int i) {
+        Point<D> point = points[i];
         for (int axis = 0; axis < D; ++axis)
-            for (std::uint32_t i = random.below(3); i > 0; --i)
+            for (std::uint32_t k = random.below(3); k > 0; --k)
                 point[axis] = std::nextafter(point[axis], random.below(2) ? 2.0f : -2.0f);
-    return points;
+        return point;
+    });
 }
 /// Every coordinate moved by its 2^-1 to 2^-22nd: planes that meet at small angles of all sizes.
 template <int D>
-Corners<D> moved(Corners<D> points, Pcg32& random) {
+Simplex<D> moved(const Simplex<D>& points, Pcg32& random) {
     const float size = std::ldexp(1.0f, -1 - static_cast<int>(random.below(22)));
-    for (auto& point : points)
+    return simplex_of<D>([&](int i) {
+        Point<D> point = points[i];
         for (int axis = 0; axis < D; ++axis) point[axis] += size * random.uniform(-1.0f, 1.0f);
-    return points;
+        return point;
+    });
 }
 /// Through (nearly) the given point: its sides are decided in the last bits.
 template <int D>
-Corners<D> through(const DoublePoint<D>& p, Pcg32& random, const MakeFloat& number) {
-    Corners<D> points = corners_of<D>(random, number);
-    points[0] = Point<D>(p);
-    if (is_finite<D>(points[0])) return points;
-    return corners_of<D>(random, number);
+Simplex<D> through(const Double<D>& p, Pcg32& random, const MakeFloat& number) {
+    const Simplex<D> points = random_simplex<D>(random, number);
+    const Point<D> first(p);
+    if (!is_finite<D>(first)) return random_simplex<D>(random, number);
+    return simplex_of<D>([&](int i) { return i == 0 ? first : points[i]; });
 }
 
 struct Tally {
@@ -98,27 +112,27 @@ struct Tally {
     std::uint64_t meets = 0, beyond = 0;  ///< approximations, and those farther off than they say
 };
 
-template <int D, class M>
-void compare_side(const Corners<D>& plane, const M& meet, const Approximation<D>& at,
+template <int D>
+void compare_side(const Simplex<D>& plane, const Meet<D>& meet, const Approximation<D>& at,
                   Tally& tally) {
     const int expected = cgal_side(plane, meet).value();
     ++tally.decisions;
     tally.on += expected == 0;
-    tally.wrong += exact_side(plane, meet) != expected;
+    tally.wrong += exact_side<D>(plane, meet) != expected;
     if (const auto side = side_filter(SplitPlane<D>(plane), at.at, at.error)) {
         ++tally.filtered;
         tally.wrong_filter += *side != expected;
     }
 }
 
-template <int D, class M>
-void compare_meet(const M& meet, const std::vector<Corners<D>>& planes, Pcg32& random,
+template <int D>
+void compare_meet(const Meet<D>& meet, const std::vector<Simplex<D>>& planes, Pcg32& random,
                   const MakeFloat& number, Tally& tally) {
     if (!cgal_side(planes[0], meet)) return;  // parallel, or no planes at all
     const Approximation<D> at = approximate(meet);
     ++tally.meets;
     tally.beyond += !cgal_encloses(at, meet);
-    for (const Corners<D>& plane : planes) compare_side<D>(plane, meet, at, tally);
+    for (const Simplex<D>& plane : planes) compare_side<D>(plane, meet, at, tally);
     compare_side<D>(through<D>(at.at, random, number), meet, at, tally);
 }
 
@@ -127,30 +141,33 @@ enum class Angles { any, small, tiny };
 Tally compare_all(int rounds, std::uint64_t seed, const MakeFloat& number, Angles angles) {
     Pcg32 random(seed);
     Tally tally;
-    const auto plane_near = [&]<int D>(const Corners<D>& other) {
+    const auto plane_near = [&]<int D>(const Simplex<D>& other) {
         return angles == Angles::tiny    ? nudged<D>(other, random)
                : angles == Angles::small ? moved<D>(other, random)
-                                         : corners_of<D>(random, number);
+                                         : random_simplex<D>(random, number);
     };
     for (int i = 0; i < rounds; ++i) {
-        const Corners<3> polygon = corners_of<3>(random, number),
-                         p = plane_near.template operator()<3>(polygon),
-                         q = plane_near.template operator()<3>(p),
-                         other = plane_near.template operator()<3>(q);
-        const std::vector<Corners<3>> planes{other, p, q, polygon};
+        const Triangle polygon = random_simplex<3>(random, number),
+                       p = plane_near.template operator()<3>(polygon),
+                       q = plane_near.template operator()<3>(p),
+                       other = plane_near.template operator()<3>(q);
+        const std::vector<Triangle> planes{other, p, q, polygon};
         const int edge = static_cast<int>(random.below(3));
-        for (const Meet3& meet :
-             {Meet3{&polygon, edge, -1, nullptr, &p}, Meet3{&polygon, -1, edge, &p, nullptr},
-              Meet3{&polygon, -1, -1, &p, &q},
-              Meet3{&polygon, edge, (edge + 1) % 3, nullptr, nullptr}})
-            compare_meet<3>(meet, planes, random, number, tally);
+        const std::vector<SplitPlane<3>> carriers{SplitPlane<3>(p), SplitPlane<3>(q)};
+        const Carrier own = Carrier::original(edge), next = Carrier::original((edge + 1) % 3),
+                      first = Carrier::plane(0), second = Carrier::plane(1);
+        for (const auto& pair :
+             {std::array{own, first}, {first, own}, {first, second}, {own, next}})
+            compare_meet(Meet<3>{polygon, pair, carriers}, planes, random, number, tally);
 
-        const Corners<2> segment = corners_of<2>(random, number),
-                         line = plane_near.template operator()<2>(segment),
-                         third = plane_near.template operator()<2>(line);
-        compare_meet<2>(Meet2{&segment, &line}, {third, line, segment}, random, number, tally);
+        const Segment segment = random_simplex<2>(random, number),
+                      line = plane_near.template operator()<2>(segment),
+                      third = plane_near.template operator()<2>(line);
+        const std::vector<SplitPlane<2>> lines{SplitPlane<2>(line)};
+        compare_meet(Meet<2>{segment, {first}, lines}, {third, line, segment}, random, number,
+                     tally);
 
-        for (const Corners<3>& plane : planes) {
+        for (const Triangle& plane : planes) {
             const Point3 point = random.below(2) ? other[random.below(3)] : q[random.below(3)];
             const int expected = cgal_side(plane, Double3(point));
             ++tally.decisions;
@@ -161,7 +178,7 @@ Tally compare_all(int rounds, std::uint64_t seed, const MakeFloat& number, Angle
                 tally.wrong_filter += *side != expected;
             }
         }
-        const int expected = cgal_side(third, DoublePoint<2>(segment[0]));
+        const int expected = cgal_side(third, Double2(segment[0]));
         tally.wrong += exact_side<2>(third, segment[0]) != expected;
     }
     return tally;
@@ -225,8 +242,8 @@ TEST_CASE("the filter leaves less than one side in a thousand of random corners 
 
 TEST_CASE("three points on a line in double that are none in exact arithmetic are told apart") {
     const float n = 0x1p23f, e = 0x1p-29f;
-    const Corners<3> thin{{{e, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}}},
-        line{{{0, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}}};
+    const Triangle thin{{e, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}},
+        line{{0, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}};
     CHECK_FALSE(is_on_a_line(thin));
     CHECK(is_on_a_line(line));
     CHECK(cgal_side(thin, Double3(0, 0, 1)) != 0);
@@ -242,22 +259,34 @@ rc::Gen<float> coordinate() {
     return rc::gen::map(rc::gen::inRange(-2048, 2048),
                         [](int i) { return static_cast<float>(i) * 0x1p-10f; });
 }
-Corners<3> some_plane() {
-    Corners<3> points;
-    for (Point3& point : points)
+Triangle some_plane() {
+    return simplex_of<3>([](int) {
+        Point3 point;
         for (int axis = 0; axis < 3; ++axis) point[axis] = *coordinate();
-    return points;
+        return point;
+    });
 }
+
+/// Where a polygon and two planes meet.
+struct Three {
+    Triangle polygon;
+    std::vector<SplitPlane<3>> planes;
+
+    Three(const Triangle& p, const Triangle& q, const Triangle& r)
+        : polygon(p), planes{SplitPlane<3>(q), SplitPlane<3>(r)} {}
+    Meet<3> meet() const { return {polygon, {Carrier::plane(0), Carrier::plane(1)}, planes}; }
+};
 
 }  // namespace
 
 TEST_CASE("property: a plane with two corners exchanged has its sides exchanged") {
     CHECK(rc::check([] {
-        const Corners<3> polygon = some_plane(), p = some_plane(), q = some_plane(),
-                         plane = some_plane();
-        const Meet3 meet{&polygon, -1, -1, &p, &q};
+        const Triangle polygon = some_plane(), p = some_plane(), q = some_plane(),
+                       plane = some_plane();
+        const Three three(polygon, p, q);
+        const Meet<3> meet = three.meet();
         RC_PRE(cgal_side(plane, meet).has_value());
-        RC_ASSERT(exact_side({plane[0], plane[2], plane[1]}, meet) == -exact_side(plane, meet));
+        RC_ASSERT(exact_side<3>({plane.a, plane.c, plane.b}, meet) == -exact_side<3>(plane, meet));
     }));
 }
 
@@ -265,22 +294,24 @@ TEST_CASE(
     "property: a corner lies on every plane that makes it, and the order of the planes doesn't "
     "matter") {
     CHECK(rc::check([] {
-        const Corners<3> polygon = some_plane(), p = some_plane(), q = some_plane(),
-                         plane = some_plane();
-        const Meet3 meet{&polygon, -1, -1, &p, &q}, other{&p, -1, -1, &q, &polygon};
-        RC_PRE(cgal_side(plane, meet).has_value());
-        for (const Corners<3>& own : {polygon, p, q}) RC_ASSERT(exact_side(own, meet) == 0);
-        RC_ASSERT(exact_side(plane, meet) == exact_side(plane, other));
+        const Triangle polygon = some_plane(), p = some_plane(), q = some_plane(),
+                       plane = some_plane();
+        const Three three(polygon, p, q), other(p, q, polygon);
+        RC_PRE(cgal_side(plane, three.meet()).has_value());
+        for (const Triangle& own : {polygon, p, q})
+            RC_ASSERT(exact_side<3>(own, three.meet()) == 0);
+        RC_ASSERT(exact_side<3>(plane, three.meet()) == exact_side<3>(plane, other.meet()));
     }));
 }
 
 TEST_CASE("property: both polygons of an edge round its cut to the same point, bit for bit") {
     CHECK(rc::check([] {
-        const Corners<3> polygon = some_plane(), plane = some_plane();
-        const Corners<3> neighbour{polygon[1], polygon[0],
-                                   some_plane()[2]};  // its edge 0 runs the other way
-        const Meet3 one{&polygon, 0, -1, nullptr, &plane},
-            other{&neighbour, 0, -1, nullptr, &plane};
+        const Triangle polygon = some_plane(), plane = some_plane();
+        const Triangle neighbour{polygon[1], polygon[0],
+                                 some_plane()[2]};  // its edge 0 runs the other way
+        const std::vector<SplitPlane<3>> planes{SplitPlane<3>(plane)};
+        const std::array carriers{Carrier::original(0), Carrier::plane(0)};
+        const Meet<3> one{polygon, carriers, planes}, other{neighbour, carriers, planes};
         RC_PRE(cgal_side(plane, one).has_value());
         const Approximation<3> a = approximate(one), b = approximate(other);
         RC_ASSERT(a.at == b.at);
@@ -290,13 +321,13 @@ TEST_CASE("property: both polygons of an edge round its cut to the same point, b
 
 TEST_CASE("property: exactly the points on a line have no plane") {
     CHECK(rc::check([] {
-        const Corners<3> p = some_plane();
+        const Triangle p = some_plane();
         const auto steps = *rc::gen::inRange(-3, 4);
-        const Corners<3> line{p[0], p[1],
-                              p[0] + static_cast<float>(steps) * (p[1] - p[0])};  // sums are exact
+        const Triangle line{p[0], p[1],
+                            p[0] + static_cast<float>(steps) * (p[1] - p[0])};  // sums are exact
         RC_ASSERT(is_on_a_line(line));
-        Corners<3> bent = line;
-        bent[2].x = std::nextafter(bent[2].x, infinity);
+        Triangle bent = line;
+        bent.c.x = std::nextafter(bent.c.x, infinity);
         RC_ASSERT(is_on_a_line(bent) == (cgal_side(bent, Double3(0, 0, 0)) == 0 &&
                                          cgal_side(bent, Double3(1, 0, 0)) == 0 &&
                                          cgal_side(bent, Double3(0, 1, 0)) == 0 &&

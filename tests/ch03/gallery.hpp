@@ -51,14 +51,14 @@ class Gallery {
         std::map<std::array<float, 3>, std::vector<std::uint32_t>> at;  // triangles by vertex
         const auto key = [](const Point3& p) { return std::array{p.x, p.y, p.z}; };
         for (std::uint32_t i = 0; i < view.polygons.size(); ++i)
-            for (const Point3& corner : view.polygons[i]) {
-                at[key(corner)].push_back(i);
-                if (i < closed) box_.extend(corner);
+            for (int corner = 0; corner < 3; ++corner) {
+                at[key(view.polygons[i][corner])].push_back(i);
+                if (i < closed) box_.extend(view.polygons[i][corner]);
             }
-        for (const Corners<3>& polygon : view.polygons) {
+        for (const Triangle& polygon : view.polygons) {
             std::vector<std::uint32_t> ring;
-            for (const Point3& corner : polygon)
-                for (const std::uint32_t i : at[key(corner)])
+            for (int corner = 0; corner < 3; ++corner)
+                for (const std::uint32_t i : at[key(polygon[corner])])
                     if (std::find(ring.begin(), ring.end(), i) == ring.end()) ring.push_back(i);
             near_.push_back(std::move(ring));
         }
@@ -67,7 +67,7 @@ class Gallery {
             of_[f.polygon].push_back(i);
             if (f.polygon >= closed) continue;
             for (std::size_t c = 0; c < f.corners.size(); ++c)
-                (f.corners[c].carrier.is_original() ? old_ : cut_)
+                (f.corners[c].carriers.back().is_original() ? old_ : cut_)
                     .push_back(
                         {f.corners[c].at, f.corners[(c + 1) % f.corners.size()].at, f.polygon});
         }
@@ -116,12 +116,12 @@ class Gallery {
             const bool meets =
                 std::any_of(of_[near].begin(), of_[near].end(),
                             [&](std::uint32_t f) { return fragments_.meets(ray, f); });
-            const Corners<3>& p = polygons_[near];
-            const bool hits = FilteredExact::intersect(ray, {p[0], p[1], p[2]}).has_value();
+            const Triangle& p = polygons_[near];
+            const bool hits = FilteredExact::intersect(ray, p).has_value();
             hit = hit || hits;
             met = met || meets;
             leaks.unmet += hits && !meets;
-            const bool front = glm::dot(normal({p[0], p[1], p[2]}), Double3(ray.direction)) < 0.0;
+            const bool front = glm::dot(normal(p), Double3(ray.direction)) < 0.0;
             (front ? towards : away) = true;
         }
         leaks.hits += hit;
@@ -130,15 +130,15 @@ class Gallery {
         if (hit && !met) {  // judged again by the oracle
             bool confirmed = false;
             for (const std::uint32_t near : near_[polygon]) {
-                const Corners<3>& p = polygons_[near];
-                confirmed = confirmed || decide(ray, {p[0], p[1], p[2]}) != Place::miss;
+                const Triangle& p = polygons_[near];
+                confirmed = confirmed || decide(ray, p) != Place::miss;
             }
             REQUIRE(confirmed);
             leaks.leaking.push_back(ray);
         }
     }
 
-    std::span<const Corners<3>> polygons_;
+    std::span<const Triangle> polygons_;
     CgalFragments fragments_;
     Aabb box_;
     std::vector<std::vector<std::uint32_t>>

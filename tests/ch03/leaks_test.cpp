@@ -58,8 +58,7 @@ void report(const std::string& mesh, Grade grade, const char* where, const Leaks
 TEST_CASE("no ray leaks through fragments of the exact grade, at old edges or at new cuts") {
     Leaks all;
     for (const Mesh& mesh : meshes()) {
-        const BspTree<3> tree =
-            BspBuilder<3>::build(corners(mesh.triangles), {.order = mesh.order});
+        const BspTree<3> tree = BspBuilder<3>::build(mesh.triangles, {.order = mesh.order});
         const Gallery gallery(view(tree, Grade::exact), mesh.closed);
         const Leaks old = gallery.at_old_edges(exact_rays, 1),
                     cuts = gallery.at_cuts(exact_rays, 2);
@@ -80,8 +79,8 @@ TEST_CASE("fragments of the inexact grades leak") {
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
         Leaks old, cuts;
         for (const Mesh& mesh : meshes()) {
-            const BspTree<3> tree = BspBuilder<3>::build(corners(mesh.triangles),
-                                                         {.grade = grade, .order = mesh.order});
+            const BspTree<3> tree =
+                BspBuilder<3>::build(mesh.triangles, {.grade = grade, .order = mesh.order});
             const Gallery gallery(view(tree, grade), mesh.closed);
             const Leaks at_old = gallery.at_old_edges(inexact_rays, 3),
                         at_cuts = gallery.at_cuts(inexact_rays, 4);
@@ -106,7 +105,7 @@ TEST_CASE(
     const Mesh mesh = cut_sphere();
     for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
         const BspTree<3> tree =
-            BspBuilder<3>::build(corners(mesh.triangles), {.grade = grade, .order = mesh.order});
+            BspBuilder<3>::build(mesh.triangles, {.grade = grade, .order = mesh.order});
         const Tiling tiling = measure_tiling(tree, grade);
         const Leaks old = Gallery(view(tree, grade), mesh.closed).at_old_edges(4 * inexact_rays, 5);
         report(mesh.name, grade, "old edges", old);
@@ -121,7 +120,7 @@ TEST_CASE(
     const Mesh mesh = cut_sphere();
     for (const Grade grade : {Grade::thick_float, Grade::exact}) {
         const BspTree<3> tree =
-            BspBuilder<3>::build(corners(mesh.triangles), {.grade = grade, .order = mesh.order});
+            BspBuilder<3>::build(mesh.triangles, {.grade = grade, .order = mesh.order});
         const FragmentRays rays(tree, grade);
         const SlippedRays old = rays.at_old_edges(slipped_rays, 6),
                           cuts = rays.at_cuts(slipped_rays, 7);
@@ -140,7 +139,7 @@ TEST_CASE("no ray of a million leaks through the bunny's fragments", "[.big]") {
     }
     for (const Grade grade :
          {Grade::exact, Grade::thick_float, Grade::ordered_float, Grade::ordered_double}) {
-        const BspTree<3> tree = BspBuilder<3>::build(corners(bunny), {.grade = grade});
+        const BspTree<3> tree = BspBuilder<3>::build(bunny, {.grade = grade});
         const Gallery gallery(view(tree, grade), bunny.size());
         const Leaks old = gallery.at_old_edges(1'000'000, 8), cuts = gallery.at_cuts(1'000'000, 9);
         report("bunny", grade, "old edges", old);

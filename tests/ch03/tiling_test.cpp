@@ -20,27 +20,23 @@ constexpr std::uint32_t every = 1;
 
 constexpr Grade inexact_grades[] = {Grade::thick_float, Grade::ordered_float,
                                     Grade::ordered_double};
-constexpr SplitterChoice choices[] = {SplitterChoice::first,    SplitterChoice::random,
-                                      SplitterChoice::balanced, SplitterChoice::fewest_splits,
-                                      SplitterChoice::weighted, SplitterChoice::free};
-const char* name(SplitterChoice choice) {
+constexpr BspConfig::SplitterChoice choices[] = {
+    BspConfig::SplitterChoice::first,    BspConfig::SplitterChoice::random,
+    BspConfig::SplitterChoice::balanced, BspConfig::SplitterChoice::fewest_splits,
+    BspConfig::SplitterChoice::weighted, BspConfig::SplitterChoice::free};
+const char* name(BspConfig::SplitterChoice choice) {
     constexpr const char* names[] = {"first",         "random",   "balanced",
                                      "fewest splits", "weighted", "free"};
     return names[static_cast<int>(choice)];
 }
 
 /// Counts the cuts of each polygon.
-struct Cuts {
+struct Cuts : NoObserver {
     std::vector<std::uint32_t> of;
-    template <int D>
-    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t>, std::int32_t, std::int32_t,
-                bool) {}
-    template <int D>
-    void placed(const Fragment<D>&, Side) {}
-    template <int D>
-    void cut(const Fragment<D>& whole, const Fragment<D>&, const Fragment<D>&) {
-        ++of[whole.polygon];
-    }
+
+    explicit Cuts(std::size_t polygons) : of(polygons) {}
+    using NoObserver::observe;
+    void observe(const BspBuilder<3>::Cut& event) { ++of[event.whole.polygon]; }
 };
 
 /// By how much the areas of fragments can differ from the polygon's in an inexact grade. A cut
@@ -50,26 +46,26 @@ struct Cuts {
 /// difference, a product and a sum). With M the largest coordinate that is 5 u M, sqrt(3) 5 u M < 9
 /// u M in all. Twice per cut half the edge, which is no longer than the polygon's longest (but for
 /// rounding), times this distance.
-double area_bound(const Corners<3>& polygon, std::uint32_t cuts, Grade grade, double largest) {
+double area_bound(const Triangle& polygon, std::uint32_t cuts, Grade grade, double largest) {
     const double u = grade == Grade::ordered_double ? 0x1p-53 : 0x1p-24;
     double longest = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; ++i)
         longest =
             std::max(longest, glm::distance(Double3(polygon[i]), Double3(polygon[(i + 1) % 3])));
     return cuts * 1.01 * longest * 9.0 * u * largest;
 }
 
-double largest_coordinate(const std::vector<Corners<3>>& polygons) {
+double largest_coordinate(const std::vector<Triangle>& polygons) {
     double largest = 0.0;
     for (const auto& polygon : polygons)
-        for (const Point3& p : polygon)
+        for (int corner = 0; corner < 3; ++corner)
             for (int axis = 0; axis < 3; ++axis)
-                largest = std::max(largest, std::abs(double{p[axis]}));
+                largest = std::max(largest, std::abs(double{polygon[corner][axis]}));
     return largest;
 }
 
 TilingReport examine(const std::vector<Triangle>& triangles, const BspConfig& config) {
-    return examine_tiling(BspBuilder<3>::build(corners(triangles), config), config.grade, every);
+    return examine_tiling(BspBuilder<3>::build(triangles, config), config.grade, every);
 }
 
 }  // namespace
@@ -79,11 +75,12 @@ TEST_CASE(
     "splitters") {
     std::uint64_t polygons = 0, fragments = 0;
     for (const TestScene& scene : scenes::tiling_scenes())
-        for (const SplitterChoice choice : choices) {
+        for (const BspConfig::SplitterChoice choice : choices) {
             // The worst choices cut without measure: smaller scenes show as much.
             std::vector<Triangle> triangles = scene.triangles;
-            const bool wild = choice == SplitterChoice::first || choice == SplitterChoice::random ||
-                              choice == SplitterChoice::balanced;
+            const bool wild = choice == BspConfig::SplitterChoice::first ||
+                              choice == BspConfig::SplitterChoice::random ||
+                              choice == BspConfig::SplitterChoice::balanced;
             if (wild && triangles.size() > 200) triangles.resize(200);
             const TilingReport report = examine(triangles, {.splitter = choice});
             INFO(scene.name << ", " << name(choice) << ": " << report.text());
@@ -135,7 +132,8 @@ TEST_CASE("the exact grade tiles polygons exactly where planes differ in the las
         copies.push_back({a, b, Point3(0.1f, 1, 0.15f) + nudge()});
     }
     for (const auto& triangles : {sheaf, copies})
-        for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::weighted}) {
+        for (const BspConfig::SplitterChoice choice :
+             {BspConfig::SplitterChoice::first, BspConfig::SplitterChoice::weighted}) {
             const TilingReport report = examine(triangles, {.splitter = choice});
             INFO(report.text());
             fmt::print("  nearly equal planes, {}: {}\n", name(choice), report.text());
@@ -145,7 +143,7 @@ TEST_CASE("the exact grade tiles polygons exactly where planes differ in the las
 
 TEST_CASE("in the plane, the exact grade tiles every segment exactly") {
     Pcg32 random(9);
-    std::vector<Corners<2>> segments, whole;
+    std::vector<Segment> segments, whole;
     for (int i = 0; i < 150; ++i) {
         const auto point = [&] { return random_point(random, Aabb2{Point2(-1.0f), Point2(1.0f)}); };
         const auto whole_point = [&] {
@@ -157,7 +155,7 @@ TEST_CASE("in the plane, the exact grade tiles every segment exactly") {
         whole.push_back({b, whole_point()});
     }
     for (const auto& scene : {segments, whole})
-        for (const SplitterChoice choice : choices) {
+        for (const BspConfig::SplitterChoice choice : choices) {
             const TilingReport report =
                 examine_tiling(BspBuilder<2>::build(scene, {.splitter = choice}), Grade::exact);
             INFO(name(choice) << ": " << report.text());
@@ -177,10 +175,10 @@ TEST_CASE(
         double worst_of_bound = 0.0;
         std::uint64_t beyond = 0;
         for (const TestScene& scene : scenes::tiling_scenes()) {
-            const auto polygons = corners(scene.triangles);
-            Cuts cuts{std::vector<std::uint32_t>(polygons.size())};
+            const auto polygons = scene.triangles;
+            Cuts cuts(polygons.size());
             const BspConfig config{.grade = grade};
-            const BspTree<3> tree = BspBuilder<3, Cuts&>::build(polygons, config, cuts);
+            const BspTree<3> tree = BspBuilder<3>::build(polygons, config, cuts);
             const double largest = largest_coordinate(polygons);
             const std::vector<double> errors = area_errors(view(tree, grade));
             for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -215,8 +213,7 @@ TEST_CASE("the chapter's own measure of areas and cracks agrees with CGAL's") {
                                    {"two spheres", scenes::tiling_scenes()[7].triangles}})
         for (const Grade grade :
              {Grade::thick_float, Grade::ordered_float, Grade::ordered_double, Grade::exact}) {
-            const BspTree<3> tree =
-                BspBuilder<3>::build(corners(scene.triangles), {.grade = grade});
+            const BspTree<3> tree = BspBuilder<3>::build(scene.triangles, {.grade = grade});
             const Tiling tiling = measure_tiling(tree, grade);
             const TilingReport report = examine_tiling(tree, grade);
             INFO(scene.name << ", " << name(grade));
@@ -232,7 +229,7 @@ TEST_CASE("the bunny is tiled exactly", "[.big]") {
         WARN("the bunny is not installed (package glmark2-data)");
         return;
     }
-    const BspTree<3> tree = BspBuilder<3>::build(corners(bunny));
+    const BspTree<3> tree = BspBuilder<3>::build(bunny);
     const TilingReport report = examine_tiling(tree, Grade::exact);
     fmt::print("  bunny: {}\n", report.text());
     CHECK(report.is_exact());

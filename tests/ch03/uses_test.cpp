@@ -65,9 +65,8 @@ std::optional<std::uint32_t> last_painted(const BspTree<3>& tree, const CgalFrag
                                           const std::vector<std::uint32_t>& order, const Ray& ray) {
     for (auto f = order.rbegin(); f != order.rend(); ++f) {
         const std::uint32_t polygon = tree.fragments[*f].polygon;
-        const Corners<3>& p = tree.polygons[polygon];
-        if (decide(ray, {p[0], p[1], p[2]}) != Place::miss && fragments.meets(ray, *f))
-            return polygon;
+        const Triangle& p = tree.polygons[polygon];
+        if (decide(ray, p) != Place::miss && fragments.meets(ray, *f)) return polygon;
     }
     return std::nullopt;
 }
@@ -100,7 +99,7 @@ TEST_CASE(
     std::uint64_t pixels = 0, covered = 0, ties = 0, within = 0, wrong = 0;
     for (const TestScene& scene : painted_scenes()) {
         const ExactOracle oracle = ExactOracle::build(scene.triangles);
-        const BspTree<3> tree = BspBuilder<3>::build(corners(scene.triangles));
+        const BspTree<3> tree = BspBuilder<3>::build(scene.triangles);
         const CgalFragments fragments(view(tree, Grade::exact));
         const Point3 target = box_of(scene.triangles).centroid();
         for (const Point3& eye : eyes(scene.triangles, 1)) {
@@ -153,7 +152,7 @@ TEST_CASE(
 TEST_CASE("a fragment is painted before what hides it in the plane, too") {
     // In the plane fragments are seen edge-on from everywhere: rays against segments, by rational
     // arithmetic in the painter's order of the tree of A .. G, from a grid of eyes.
-    const std::vector<Corners<2>> segments = corners(heinonen_segments());
+    const std::vector<Segment> segments = heinonen_segments();
     const BspTree<2> tree = BspBuilder<2>::build(segments);
     int compared = 0;
     for (int ex = 0; ex <= 16; ++ex)
@@ -163,10 +162,9 @@ TEST_CASE("a fragment is painted before what hides it in the plane, too") {
             tree.back_to_front(eye, [&](const Fragment<2>& f) { order.push_back(&f); });
             CHECK(order.size() == tree.fragments.size());
             for (int k = 0; k < 48; ++k) {
-                const DoublePoint<2> d(std::cos(0.1309 * k + 0.01), std::sin(0.1309 * k + 0.01));
-                const auto at = [&](const DoublePoint<2>& a,
-                                    const DoublePoint<2>& b) -> std::optional<double> {
-                    const DoublePoint<2> from = a - DoublePoint<2>(eye), along = b - a;
+                const Double2 d(std::cos(0.1309 * k + 0.01), std::sin(0.1309 * k + 0.01));
+                const auto at = [&](const Double2& a, const Double2& b) -> std::optional<double> {
+                    const Double2 from = a - Double2(eye), along = b - a;
                     const double det = d.x * along.y - d.y * along.x;
                     const double t = (from.x * along.y - from.y * along.x) / det,
                                  s = (from.x * d.y - from.y * d.x) / det;
@@ -175,8 +173,7 @@ TEST_CASE("a fragment is painted before what hides it in the plane, too") {
                 std::optional<std::uint32_t> nearest, painted;
                 double best = 1e9;
                 for (std::uint32_t i = 0; i < segments.size(); ++i)
-                    if (const auto t =
-                            at(DoublePoint<2>(segments[i][0]), DoublePoint<2>(segments[i][1]));
+                    if (const auto t = at(Double2(segments[i][0]), Double2(segments[i][1]));
                         t && *t < best) {
                         best = *t;
                         nearest = i;
@@ -198,7 +195,7 @@ DepthBuffer painted_picture(const BspTree<3>& tree, const Camera& camera, int w,
     const CameraFrame frame(camera);
     DepthBuffer picture(w, h);
     tree.back_to_front(camera.eye, [&](const Fragment<3>& fragment) {
-        const Corners<3>& p = tree.polygons[fragment.polygon];
+        const Triangle& p = tree.polygons[fragment.polygon];
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x) {
                 const Ray ray = camera_ray(camera, frame, x + 0.5, y + 0.5, w, h);
@@ -265,9 +262,8 @@ Differences compare_pictures(const BspTree<3>& tree, const Camera& camera,
             const Ray ray =
                 camera_ray(camera, frame, x + 0.5, y + 0.5, buffer.width, buffer.height);
             const auto exact_depth = [&](const Hit& hit) {
-                const Corners<3>& p = tree.polygons[hit.triangle];
-                return hit.t < infinity ? crossing(ray, {p[0], p[1], p[2]}).value().t
-                                        : double{infinity};
+                const Triangle& p = tree.polygons[hit.triangle];
+                return hit.t < infinity ? crossing(ray, p).value().t : double{infinity};
             };
             const double depth_one = exact_depth(one), depth_other = exact_depth(other);
             if (near_edge)
@@ -286,7 +282,7 @@ Differences compare_pictures(const BspTree<3>& tree, const Camera& camera,
 TEST_CASE("the painter's picture is the z-buffer's, but for pixels at edges and of equal depth") {
     Differences all;
     for (const TestScene& scene : painted_scenes()) {
-        const BspTree<3> tree = BspBuilder<3>::build(corners(scene.triangles));
+        const BspTree<3> tree = BspBuilder<3>::build(scene.triangles);
         const Aabb box = box_of(scene.triangles);
         Pcg32 random(6);
         for (int view_number = 0; view_number < 3; ++view_number) {
@@ -328,9 +324,10 @@ TEST_CASE("without cuts or in the wrong order the painter's picture is wrong") {
     const Camera camera{.eye = {0, 0, 9}, .target = {0, 0, 0}, .field_of_view = 45};
     Rasteriser rasteriser(camera, 96, 72);
     for (std::uint32_t i = 0; i < 3; ++i) rasteriser.draw(cycle[i], i);
-    const auto polygons = corners(cycle);
+    const auto polygons = cycle;
     const BspTree<3> right = BspBuilder<3>::build(polygons),
-                     shared = BspBuilder<3>::build(polygons, {.straddlers = Straddlers::share});
+                     shared = BspBuilder<3>::build(polygons,
+                                                   {.straddlers = BspConfig::Straddlers::share});
     CHECK(right.fragments.size() > 3);
     CHECK(
         compare_pictures(right, camera, painted_picture(right, camera, 96, 72), rasteriser.buffer())
@@ -347,10 +344,10 @@ namespace {
 
 /// By parity, in exact arithmetic: along a ray that meets only the inner points of triangles. Both
 /// ways must agree.
-std::optional<Cell> exact_cell(const ExactOracle& oracle, const Point3& p, Pcg32& random) {
+std::optional<Location> exact_cell(const ExactOracle& oracle, const Point3& p, Pcg32& random) {
     for (const Triangle& t : oracle.triangles()) {
         Aabb box = bounds(t);
-        if (box.contains(p) && cgal_has_on(t, p)) return Cell::boundary;
+        if (box.contains(p) && cgal_has_on(t, p)) return Location::boundary;
     }
     for (int attempt = 0; attempt < 20; ++attempt) {
         const Vector3 direction = random_point(random, -1.0f, 1.0f);
@@ -363,7 +360,7 @@ std::optional<Cell> exact_cell(const ExactOracle& oracle, const Point3& p, Pcg32
         }
         if (!clean) continue;
         if (ahead % 2 != behind % 2) return std::nullopt;  // the mesh is not closed
-        return ahead % 2 ? Cell::inside : Cell::outside;
+        return ahead % 2 ? Location::inside : Location::outside;
     }
     return std::nullopt;
 }
@@ -380,13 +377,13 @@ TEST_CASE(
                                         {"torus", scenes::torus(20, 10)},
                                         {"bumpy ball", scenes::ball(2)},
                                         {"boxes", boxes}};
-    std::map<Cell, std::uint64_t> seen;
+    std::map<Location, std::uint64_t> seen;
     for (const TestScene& mesh : meshes)
-        for (const SplitterChoice choice :
-             {SplitterChoice::weighted, SplitterChoice::free, SplitterChoice::first}) {
+        for (const BspConfig::SplitterChoice choice :
+             {BspConfig::SplitterChoice::weighted, BspConfig::SplitterChoice::free,
+              BspConfig::SplitterChoice::first}) {
             const ExactOracle oracle = ExactOracle::build(mesh.triangles);
-            const BspTree<3> tree =
-                BspBuilder<3>::build(corners(mesh.triangles), {.splitter = choice});
+            const BspTree<3> tree = BspBuilder<3>::build(mesh.triangles, {.splitter = choice});
             const Aabb box = box_of(mesh.triangles);
             Pcg32 random(3);
             std::uint64_t wrong = 0, undecided = 0;
@@ -414,33 +411,35 @@ TEST_CASE(
             CHECK(wrong == 0);
             CHECK(undecided == 0);
         }
-    fmt::print("  located: {} outside, {} inside, {} on the boundary\n", seen[Cell::outside],
-               seen[Cell::inside], seen[Cell::boundary]);
-    for (const Cell cell : {Cell::outside, Cell::inside, Cell::boundary}) CHECK(seen[cell] > 20);
+    fmt::print("  located: {} outside, {} inside, {} on the boundary\n", seen[Location::outside],
+               seen[Location::inside], seen[Location::boundary]);
+    for (const Location cell : {Location::outside, Location::inside, Location::boundary})
+        CHECK(seen[cell] > 20);
 }
 
 TEST_CASE("a point on a plane of the tree but off all polygons is not on the boundary") {
     std::vector<Triangle> boxes;
     scenes::add_box(boxes, {0, 0, 0}, {1, 1, 1});
     scenes::add_box(boxes, {2, 0, 0}, {3, 1, 2});
-    const BspTree<3> tree = BspBuilder<3>::build(corners(boxes));
-    CHECK(tree.locate({1.5f, 1, 1}) == Cell::outside);  // on planes of both
-    CHECK(tree.locate({1.5f, 0.5f, 1}) == Cell::outside);
-    CHECK(tree.locate({2.5f, 0.5f, 1}) == Cell::inside);  // on the plane of the first one's lid
-    CHECK(tree.locate({1, 0.5f, 1}) == Cell::boundary);   // on its edge
-    CHECK(tree.locate({1, 1, 1}) == Cell::boundary);      // on its corner
-    CHECK(tree.locate({0.5f, 0.5f, 1}) == Cell::boundary);
-    CHECK(tree.locate({0.5f, 0.5f, std::nextafter(1.0f, 0.0f)}) == Cell::inside);
-    CHECK(tree.locate({0.5f, 0.5f, std::nextafter(1.0f, 2.0f)}) == Cell::outside);
+    const BspTree<3> tree = BspBuilder<3>::build(boxes);
+    CHECK(tree.locate({1.5f, 1, 1}) == Location::outside);  // on planes of both
+    CHECK(tree.locate({1.5f, 0.5f, 1}) == Location::outside);
+    CHECK(tree.locate({2.5f, 0.5f, 1}) == Location::inside);  // on the plane of the first one's lid
+    CHECK(tree.locate({1, 0.5f, 1}) == Location::boundary);   // on its edge
+    CHECK(tree.locate({1, 1, 1}) == Location::boundary);      // on its corner
+    CHECK(tree.locate({0.5f, 0.5f, 1}) == Location::boundary);
+    CHECK(tree.locate({0.5f, 0.5f, std::nextafter(1.0f, 0.0f)}) == Location::inside);
+    CHECK(tree.locate({0.5f, 0.5f, std::nextafter(1.0f, 2.0f)}) == Location::outside);
 }
 
 TEST_CASE("in the plane: the inside of a polygon whose segments have it on their right") {
     // A star with a notch; fronts are on the left, so clockwise.
     const std::vector<Point2> star{{0, 0}, {1, 4}, {3, 5}, {2, 2}, {6, 3}, {5, 0}, {3, 1}};
-    std::vector<Corners<2>> segments;
+    std::vector<Segment> segments;
     for (std::size_t i = 0; i < star.size(); ++i)
         segments.push_back({star[i], star[(i + 1) % star.size()]});
-    for (const SplitterChoice choice : {SplitterChoice::first, SplitterChoice::weighted}) {
+    for (const BspConfig::SplitterChoice choice :
+         {BspConfig::SplitterChoice::first, BspConfig::SplitterChoice::weighted}) {
         const BspTree<2> tree = BspBuilder<2>::build(segments, {.splitter = choice});
         int counts[3] = {};
         for (int i = -8; i <= 56; ++i)
@@ -448,17 +447,17 @@ TEST_CASE("in the plane: the inside of a polygon whose segments have it on their
                 const Point2 p(static_cast<float>(i) / 8, static_cast<float>(j) / 8);
                 bool on = false;
                 int crossings = 0;
-                for (const Corners<2>& s : segments) {
-                    const int side = cgal_side(s, DoublePoint<2>(p));
+                for (const Segment& s : segments) {
+                    const int side = cgal_side(s, Double2(p));
                     const Point2 low = glm::min(s[0], s[1]), high = glm::max(s[0], s[1]);
                     on = on || (side == 0 && p.x >= low.x && p.x <= high.x && p.y >= low.y &&
                                 p.y <= high.y);
                     if ((s[0].y <= p.y) != (s[1].y <= p.y))
                         crossings += (s[1].y > s[0].y) == (side > 0);
                 }
-                const Cell expected = on              ? Cell::boundary
-                                      : crossings % 2 ? Cell::inside
-                                                      : Cell::outside;
+                const Location expected = on              ? Location::boundary
+                                          : crossings % 2 ? Location::inside
+                                                          : Location::outside;
                 CHECK(tree.locate(p) == expected);
                 ++counts[static_cast<int>(expected)];
             }

@@ -15,6 +15,7 @@
 namespace {
 
 using namespace space;
+using SplitterChoice = BspConfig::SplitterChoice;
 
 constexpr int ray_count = 50'000;
 
@@ -110,7 +111,7 @@ int compare_bsp(std::span<const Triangle> triangles) {
                    by(SplitterChoice::weighted), by(SplitterChoice::first),
                    by(SplitterChoice::random), by(SplitterChoice::balanced),
                    by(SplitterChoice::fewest_splits), by(SplitterChoice::free),
-                   Bsp<>::build(triangles, {.straddlers = Straddlers::share}));
+                   Bsp<>::build(triangles, {.straddlers = BspConfig::Straddlers::share}));
 }
 
 }  // namespace

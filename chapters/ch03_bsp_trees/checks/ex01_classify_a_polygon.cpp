@@ -7,8 +7,8 @@
 
 namespace space {
 
-static std::ostream& operator<<(std::ostream& out, Side side) {
-    constexpr std::array names{"front", "back", "on", "across"};
+static std::ostream& operator<<(std::ostream& out, PlaneSide side) {
+    constexpr std::array names{"front", "back", "coplanar", "straddling"};
     return out << names[static_cast<std::size_t>(side)];
 }
 
@@ -26,32 +26,33 @@ const SplitPlane<3> floor_plane({Point3(0, 0, 0), Point3(1, 0, 0),
 }  // namespace
 
 TEST_CASE("a triangle in front, one behind, one on the plane and one across it") {
-    CHECK(classify(Polygon{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, floor_plane) == Side::front);
-    CHECK(classify(Polygon{{0, 0, -1}, {4, 0, -2}, {0, 4, -3}}, floor_plane) == Side::back);
-    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, floor_plane) == Side::on);
-    CHECK(classify(Polygon{{0, 0, 1}, {4, 0, -2}, {0, 4, 3}}, floor_plane) == Side::across);
+    CHECK(classify(Polygon{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, floor_plane) == PlaneSide::front);
+    CHECK(classify(Polygon{{0, 0, -1}, {4, 0, -2}, {0, 4, -3}}, floor_plane) == PlaneSide::back);
+    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, floor_plane) == PlaneSide::coplanar);
+    CHECK(classify(Polygon{{0, 0, 1}, {4, 0, -2}, {0, 4, 3}}, floor_plane) ==
+          PlaneSide::straddling);
 }
 
 TEST_CASE("a polygon that touches the plane with a corner or an edge does not lie across it") {
-    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 1}, {0, 4, 1}}, floor_plane) == Side::front);
-    CHECK(classify(Polygon{{0, 0, -1}, {4, 0, 0}, {0, 4, 0}}, floor_plane) == Side::back);
+    CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 1}, {0, 4, 1}}, floor_plane) == PlaneSide::front);
+    CHECK(classify(Polygon{{0, 0, -1}, {4, 0, 0}, {0, 4, 0}}, floor_plane) == PlaneSide::back);
     CHECK(classify(Polygon{{0, 0, 0}, {4, 0, 0}, {4, 0, 4}, {0, 0, 4}}, floor_plane) ==
-          Side::front);
+          PlaneSide::front);
 }
 
 TEST_CASE("a square that the plane cuts from corner to corner lies across it") {
     const Polygon square{{0, 0, 0}, {2, 0, 2}, {4, 0, 0}, {2, 0, -2}};
-    CHECK(classify(square, floor_plane) == Side::across);
+    CHECK(classify(square, floor_plane) == PlaneSide::straddling);
 }
 
 TEST_CASE("the plane's position and facing count") {
     const Polygon triangle{{0, 0, 1}, {4, 0, 1}, {0, 4, 2}};
     CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 0), Point3(0, 1, 0), Point3(1, 0, 0)})) ==
-          Side::back);
+          PlaneSide::back);
     CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 1), Point3(1, 0, 1), Point3(0, 1, 1)})) ==
-          Side::front);
+          PlaneSide::front);
     CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 3), Point3(1, 0, 3), Point3(0, 1, 3)})) ==
-          Side::back);
+          PlaneSide::back);
 }
 
 TEST_CASE("every sequence of corners in front, on and behind is classified by all of its corners") {
@@ -67,10 +68,10 @@ TEST_CASE("every sequence of corners in front, on and behind is classified by al
                 seen[static_cast<std::size_t>(side)] = true;
                 polygon.push_back({6 - 2 * i + side - 1, i, 0});
             }
-            const Side expected = seen[0] && seen[2] ? Side::across
-                                  : seen[2]          ? Side::front
-                                  : seen[0]          ? Side::back
-                                                     : Side::on;
+            const PlaneSide expected = seen[0] && seen[2] ? PlaneSide::straddling
+                                       : seen[2]          ? PlaneSide::front
+                                       : seen[0]          ? PlaneSide::back
+                                                          : PlaneSide::coplanar;
             wrong += classify(polygon, plane) != expected;
             ++cases;
         }

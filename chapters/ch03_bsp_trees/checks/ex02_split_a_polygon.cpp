@@ -37,7 +37,7 @@ std::string text(const Polygon& polygon) {
 double shadow(const Polygon& polygon) {
     double sum = 0.0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const DoublePoint<3> p(polygon[i]), q(polygon[(i + 1) % polygon.size()]);
+        const Double3 p(polygon[i]), q(polygon[(i + 1) % polygon.size()]);
         sum += p.x * q.y - p.y * q.x;
     }
     return 2.0 * sum;

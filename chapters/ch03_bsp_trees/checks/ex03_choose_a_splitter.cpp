@@ -25,7 +25,7 @@ int side(const Segment& line, const Point2& p) {
     return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-double price(const Set& set, std::size_t candidate, double split_weight) {
+double cost(const Set& set, std::size_t candidate, double split_weight) {
     int balance = 0, cuts = 0;
     for (const Segment& segment : set) {
         const int a = side(set[candidate], segment.a), b = side(set[candidate], segment.b);
@@ -58,7 +58,7 @@ TEST_CASE("without G the weight of a cut decides between D and E") {
     CHECK(choose_splitter(set, Candidates{0, 5}, 1.0) == 0);
 }
 
-TEST_CASE("of equal prices the earlier candidate counts") {
+TEST_CASE("of equal costs the earlier candidate counts") {
     const Set set = heinonen_segments();
     CHECK(choose_splitter(set, Candidates{3, 4}, 1.0) == 3);
     CHECK(choose_splitter(set, Candidates{4, 3}, 1.0) == 4);
@@ -75,7 +75,7 @@ TEST_CASE("what only touches the line is not cut, and what lies on it counts on 
     const Set set{{{0, 0}, {4, 0}},  // 0: 3 in front, 3 on it, 0 behind
                   {{0, 4}, {0, 8}},  // 1: 0 in front, 4 behind, 1 touching from behind
                   {{6, 0}, {8, 0}}, {{9, 0}, {8, 0}}, {{2, 0}, {2, 3}}, {{4, 1}, {3, 2}}};
-    CHECK(price(set, 0, 100.0) == 3.0);
+    CHECK(cost(set, 0, 100.0) == 3.0);
     CHECK(choose_splitter(set, Candidates{1, 0}, 100.0) == 0);
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("of random sets with small whole coordinates the cheapest is chosen") 
 
         std::size_t best = candidates[0];
         for (const std::size_t candidate : candidates)
-            if (price(set, candidate, weight) < price(set, best, weight)) best = candidate;
+            if (cost(set, candidate, weight) < cost(set, best, weight)) best = candidate;
         wrong += choose_splitter(set, candidates, weight) != best;
     }
     CHECK(wrong == 0);

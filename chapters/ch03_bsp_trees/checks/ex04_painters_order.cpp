@@ -16,9 +16,7 @@ using Tree = BspTree<2>;
 using Order = std::vector<std::uint32_t>;
 
 Tree tree_of(const std::vector<Segment>& segments) {
-    std::vector<Corners<2>> polygons;
-    for (const Segment& segment : segments) polygons.push_back(corners(segment));
-    return BspBuilder<2>::build(polygons, {.splitter = SplitterChoice::first});
+    return BspBuilder<2>::build(segments, {.splitter = BspConfig::SplitterChoice::first});
 }
 
 /// Where in the order the fragments of a subtree stand.
@@ -63,8 +61,8 @@ Faults faults(const Tree& tree, const Point2& eye, const Order& order) {
     std::vector<Range> below(tree.nodes.size());
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
         const Tree::Node& node = tree.nodes[i];
-        const auto of = [&](std::int32_t child) {
-            return child == Tree::none ? Range{} : below[static_cast<std::size_t>(child)];
+        const auto of = [&](std::uint32_t child) {
+            return child == Tree::none ? Range{} : below[child];
         };
         const Range front = of(node.front), back = of(node.back);
         Range own;
@@ -86,11 +84,11 @@ Tree chain(std::uint32_t count) {
     Tree tree;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto x = static_cast<float>(i);
-        const Corners<2> segment{Point2(x, 1), Point2(x, 0)};  // front: larger x
+        const Segment segment{Point2(x, 1), Point2(x, 0)};  // front: larger x
         tree.polygons.push_back(segment);
         tree.planes.emplace_back(segment);
         tree.fragments.push_back(whole_polygon<2>(segment, i));
-        const auto next = i + 1 < count ? static_cast<std::int32_t>(i + 1) : Tree::none;
+        const auto next = i + 1 < count ? i + 1 : Tree::none;
         tree.nodes.push_back({i, next, Tree::none, i, 1});
     }
     return tree;

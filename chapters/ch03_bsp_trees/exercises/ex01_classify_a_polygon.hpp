@@ -4,9 +4,9 @@
 ///
 /// On which side of a plane does a polygon lie? In front or behind, where no corner is on the
 /// other side: it may touch the plane with a corner or an edge, it only must not cross it. On the
-/// plane, if all corners are; across it, if some corners are in front and some behind. The polygon
-/// has three corners or more. Checked by hand-made cases and by all polygons of up to five corners
-/// of a small set, in whole numbers, for which plane.distance(corner) is exact.
+/// plane (coplanar), if all corners are; straddling it, if some corners are in front and some
+/// behind. The polygon has three corners or more. Checked by hand-made cases and by all polygons of
+/// up to five corners of a small set, in whole numbers, for which plane.distance(corner) is exact.
 #pragma once
 
 #include "chapters/ch03_bsp_trees/fragment.hpp"
@@ -15,10 +15,12 @@
 
 namespace space {
 
-inline Side classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
+inline PlaneSide classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
     // TODO: one corner does not tell where the others are
-    const double distance = plane.distance(DoublePoint<3>(polygon[0]));
-    return distance > 0.0 ? Side::front : distance < 0.0 ? Side::back : Side::on;
+    const double distance = plane.distance(Double3(polygon[0]));
+    return distance > 0.0   ? PlaneSide::front
+           : distance < 0.0 ? PlaneSide::back
+                            : PlaneSide::coplanar;
 }
 
 }  // namespace space

@@ -78,15 +78,13 @@ void draw_heinonen_tree(const Options& options) {
         640, top + level * static_cast<double>(layout.levels - 1) + 30);
     const auto place = [&](const Double2& p) { return at(left + slot * p.x, top + level * p.y); };
     for (std::size_t i = 0; i < story.turns.size(); ++i)
-        if (story.turns[i].parent >= 0) {
-            const Point2 from =
-                             place(layout.nodes[static_cast<std::size_t>(story.turns[i].parent)]),
+        if (story.turns[i].parent != BspTree<2>::none) {
+            const Point2 from = place(layout.nodes[story.turns[i].parent]),
                          to = place(layout.nodes[i]);
             svg.line(from, to, {.stroke = story.turns[i].in_front ? Ink::blue : Ink::vermillion});
         }
     for (std::size_t i = 0; i < story.cells.size(); ++i) {
-        const Point2 from = place(layout.nodes[static_cast<std::size_t>(story.cells[i].node)]),
-                     to = place(layout.cells[i]);
+        const Point2 from = place(layout.nodes[story.cells[i].node]), to = place(layout.cells[i]);
         svg.line(from, to, {.stroke = Ink::quiet, .dashed = true});
         svg.rect(moved(to, -15, -15), at(30, 30), {.stroke = {}, .fill = Ink::paper});
         Style style = cell_style(story, i);

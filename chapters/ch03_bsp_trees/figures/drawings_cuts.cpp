@@ -13,36 +13,35 @@
 namespace space::ch03 {
 namespace {
 
-/// The part of a polygon in front of a plane, by the chapter's splitter.
-Fragment<3> front_of(const Splitter<3>& splitter, const Fragment<3>& fragment,
-                     std::uint32_t plane) {
+/// The part of a polygon in front of a plane, by the chapter's cutter.
+Fragment<3> front_of(const Cutter<3>& cutter, const Fragment<3>& fragment, std::uint32_t plane) {
     std::vector<int> sides;
-    splitter.classify(fragment, plane, sides);
-    if (Splitter<3>::place(sides) != Side::across) return fragment;
-    return splitter.split(fragment, sides, plane).first;
+    cutter.corner_sides(fragment, plane, sides);
+    if (Cutter<3>::classify(sides) != PlaneSide::straddling) return fragment;
+    return cutter.split(fragment, sides, plane).first;
 }
 
 /// Two triangles with a common edge from p to q, and a plane across it.
 struct Neighbours {
-    std::vector<Corners<3>> triangles;
+    std::vector<Triangle> triangles;
     std::vector<SplitPlane<3>> planes;
     Point3 p, q;
 
     /// Where each of them says that the edge is cut. The edge is the first of the left one, and the
     /// first of the right one the other way round.
-    std::array<DoublePoint<3>, 2> cuts(Grade grade) const {
-        const Splitter<3> splitter(triangles, planes, grade, 0.0);
-        std::array<DoublePoint<3>, 2> points;
+    std::array<Double3, 2> cuts(Grade grade) const {
+        const Cutter<3> cutter(triangles, planes, grade, 0.0);
+        std::array<Double3, 2> points;
         for (std::uint32_t i = 0; i < 2; ++i) {
-            const Fragment<3> front = front_of(splitter, whole_polygon<3>(triangles[i], i), 0);
-            for (const Corner<3>& corner :
+            const Fragment<3> front = front_of(cutter, whole_polygon<3>(triangles[i], i), 0);
+            for (const auto& corner :
                  front.corners)  // the new corner on the common edge is near p - q
                 if (on_edge(corner.at)) points[i] = corner.at;
         }
         return points;
     }
-    bool on_edge(const DoublePoint<3>& point) const {
-        const DoublePoint<3> from(p), way = DoublePoint<3>(q) - from, to = point - from;
+    bool on_edge(const Double3& point) const {
+        const Double3 from(p), way = Double3(q) - from, to = point - from;
         const double along = glm::dot(to, way) / glm::dot(way, way);
         return along > 0x1p-20 && along < 1.0 - 0x1p-20 && glm::length(to - along * way) < 0x1p-20;
     }
@@ -76,25 +75,26 @@ void draw_corners(const Options& options) {
             640, 584);
 
     // A triangle that two planes have cut.
-    const std::vector<Corners<3>> triangle{{Point3(1, 1, 0), Point3(15, 2, 0), Point3(5, 10, 0)}};
+    const std::vector<Triangle> triangle{{Point3(1, 1, 0), Point3(15, 2, 0), Point3(5, 10, 0)}};
     const std::vector<SplitPlane<3>> planes{
         SplitPlane<3>({Point3(4.5f, 11, 0), Point3(3, 0, 0), Point3(3, 0, -1)}),
         SplitPlane<3>({Point3(0, 4, 0), Point3(16, 7, 0), Point3(0, 4, 1)})};
-    const Splitter<3> splitter(triangle, planes, Grade::exact, 0.0);
+    const Cutter<3> cutter(triangle, planes, Grade::exact, 0.0);
     const Fragment<3> fragment =
-        front_of(splitter, front_of(splitter, whole_polygon<3>(triangle[0], 0), 0), 1);
-    const auto paper = [](const DoublePoint<3>& p) { return at(10 + 22 * p.x, 254 - 22 * p.y); };
+        front_of(cutter, front_of(cutter, whole_polygon<3>(triangle[0], 0), 0), 1);
+    const auto paper = [](const Double3& p) { return at(10 + 22 * p.x, 254 - 22 * p.y); };
     const auto outline = [&](const auto& corners) {
         std::vector<Point2> points;
         for (const auto& corner : corners) points.push_back(paper(corner));
         return points;
     };
-    std::vector<DoublePoint<3>> whole(triangle[0].begin(), triangle[0].end()), left;
-    for (const Corner<3>& corner : fragment.corners) left.push_back(corner.at);
+    const std::vector<Double3> whole{triangle[0].a, triangle[0].b, triangle[0].c};
+    std::vector<Double3> left;
+    for (const auto& corner : fragment.corners) left.push_back(corner.at);
     svg.polygon(outline(whole), {.stroke = Ink::quiet, .dashed = true}, "triangle");
     svg.polygon(outline(left), {.stroke = {}, .fill = Ink::sky, .opacity = 0.45}, "fragment");
     for (const SplitPlane<3>& plane : planes)
-        svg.line(paper(DoublePoint<3>(plane.through[0])), paper(DoublePoint<3>(plane.through[1])),
+        svg.line(paper(Double3(plane.through[0])), paper(Double3(plane.through[1])),
                  {.stroke = Ink::blue});
     svg.polygon(outline(left), {});
     svg.text({88, 24}, "*P*_1", {.ink = Ink::blue, .size = 20});
@@ -113,14 +113,13 @@ void draw_corners(const Options& options) {
     svg.text({404, y - 32}, "corner", {.anchor = Anchor::start, .size = 17, .bold = true});
     svg.text({476, y - 32}, "is where meet", {.anchor = Anchor::start, .size = 17, .bold = true});
     for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
-        const Corner<3>& corner = fragment.corners[i];
-        const Carrier before =
-            fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()].carrier;
+        const auto& corner = fragment.corners[i];
+        const auto [before, after] = corner.carriers;
         svg.circle(paper(corner.at), 11, {.fill = Ink::paper});
         svg.text(moved(paper(corner.at), 0, 6), fmt::format("{}", i + 1),
                  {.size = 16, .bold = true});
         svg.text(at(424, y), fmt::format("{}", i + 1), {.size = 17, .bold = true});
-        svg.text(at(476, y), name_of(before) + " and " + name_of(corner.carrier),
+        svg.text(at(476, y), name_of(before) + " and " + name_of(after),
                  {.anchor = Anchor::start, .size = 20});
         y += 32;
     }
@@ -147,7 +146,7 @@ void draw_corners(const Options& options) {
     const auto middle = shown.cuts(Grade::exact)[0];
     const auto panel = [&](double left_side, const char* name, Grade grade) {
         const double top = 300;
-        const auto map = [&](const DoublePoint<3>& p) {
+        const auto map = [&](const Double3& p) {
             return Double2(left_side + side / 2 + (p.x - middle.x) / unit * side / cells,
                            top + side / 2 - (p.y - middle.y) / unit * side / cells);
         };

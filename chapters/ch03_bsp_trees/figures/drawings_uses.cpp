@@ -18,10 +18,6 @@ namespace {
 constexpr std::array colors{Ink::blue, Ink::orange, Ink::green, Ink::vermillion,
                             Ink::sky,  Ink::quiet,  Ink::purple};
 
-std::size_t number(std::int32_t node) {
-    return static_cast<std::size_t>(node);
-}
-
 }  // namespace
 
 // -------------------------------------------------------------------------------------------------
@@ -144,8 +140,8 @@ void draw_chain(const Options& options) {
             return at(left + 152 + step * (p.x - width / 2.0), 366 + 8.0 * p.y);
         };
         for (std::size_t i = 0; i < story.turns.size(); ++i)
-            if (story.turns[i].parent >= 0)
-                svg.line(place(layout.nodes[number(story.turns[i].parent)]), place(layout.nodes[i]),
+            if (story.turns[i].parent != BspTree<2>::none)
+                svg.line(place(layout.nodes[story.turns[i].parent]), place(layout.nodes[i]),
                          {.stroke = Ink::quiet});
         for (std::size_t i = 0; i < story.turns.size(); ++i)
             svg.circle(
@@ -155,8 +151,8 @@ void draw_chain(const Options& options) {
         svg.text(at(left + 152, 590),
                  fmt::format("{} nodes, depth {}", story.turns.size(), story.tree.depth()), {});
     };
-    panel(8, {.splitter = SplitterChoice::first}, "only the sides' own lines", "chain");
-    panel(328, {.splitter = SplitterChoice::free, .candidates = 2, .lopsided = 0.2},
+    panel(8, {.splitter = BspConfig::SplitterChoice::first}, "only the sides' own lines", "chain");
+    panel(328, {.splitter = BspConfig::SplitterChoice::free, .candidates = 2, .lopsided = 0.2},
           "with free lines", "free");
     write_drawing(options.out, "fig_03_06", svg);
 }
@@ -167,7 +163,7 @@ void draw_chain(const Options& options) {
 namespace {
 
 /// Where the ray meets a segment, in double; infinity where it does not.
-double distance_along(const BasicRay<2>& ray, const Corners<2>& segment) {
+double distance_along(const BasicRay<2>& ray, const Segment& segment) {
     const Double2 o(ray.origin), d(ray.direction), a(segment[0]), way = Double2(segment[1]) - a;
     const double turn = d.x * way.y - d.y * way.x;
     if (turn == 0.0) return infinity;
@@ -209,9 +205,9 @@ void draw_ray(const Options& options) {
         });
         if (!near) segments.push_back({middle - way, middle + way});
     }
-    const Story story =
-        watched_build(segments, {.splitter = SplitterChoice::weighted, .split_weight = 3.0},
-                      {{0, 0}, {width, 0}, {width, height}, {0, height}});
+    const Story story = watched_build(
+        segments, {.splitter = BspConfig::SplitterChoice::weighted, .split_weight = 3.0},
+        {{0, 0}, {width, 0}, {width, height}, {0, height}});
     const BasicRay<2> ray{.origin = {0.7f, 11.5f}, .direction = {1.0f, -0.4f}};
     std::vector<std::size_t> crossed, tested;  // nodes; fragments
     double nearest = infinity;
@@ -271,8 +267,8 @@ void draw_ray(const Options& options) {
         throw std::logic_error(fmt::format("fig_03_07: {} nodes seem visited, {} were", visited,
                                            counts.nodes_visited));
     for (std::size_t i = 0; i < story.turns.size(); ++i)
-        if (story.turns[i].parent >= 0)
-            svg.line(place(layout.nodes[number(story.turns[i].parent)]), place(layout.nodes[i]),
+        if (story.turns[i].parent != BspTree<2>::none)
+            svg.line(place(layout.nodes[story.turns[i].parent]), place(layout.nodes[i]),
                      {.stroke = was_visited[i] ? Ink::ink : Ink::faint});
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
         const bool both = is_in(crossed, i);

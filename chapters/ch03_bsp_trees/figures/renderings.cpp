@@ -50,7 +50,7 @@ class Microscope {
     Microscope(const std::vector<Triangle>& triangles, const Spot& spot)
         : triangles_(triangles), spot_(spot) {
         const auto normal = [&](std::uint32_t i) {
-            return glm::normalize(SplitPlane<3>(corners(triangles[i])).normal);
+            return glm::normalize(SplitPlane<3>(triangles[i]).normal);
         };
         // From this near, directions in floats tell points apart that are closer than floats on the
         // surface.
@@ -62,10 +62,11 @@ class Microscope {
             static_cast<float>(2.0 * std::atan(0.5 * window / distance) * 180.0 / std::numbers::pi);
         // Upwards along the edge.
         for (int i = 0; i < 3; ++i) {
-            const auto& first = corners(triangles[spot.triangles[0]]);
-            const auto& second = corners(triangles[spot.triangles[1]]);
-            if (std::ranges::find(second, first[i]) != second.end() &&
-                std::ranges::find(second, first[(i + 1) % 3]) != second.end())
+            const Triangle& first = triangles[spot.triangles[0]];
+            const Triangle& second = triangles[spot.triangles[1]];
+            if (edge_key(first, i) == edge_key(second, 0) ||
+                edge_key(first, i) == edge_key(second, 1) ||
+                edge_key(first, i) == edge_key(second, 2))
                 camera_.up = glm::normalize(first[(i + 1) % 3] - first[i]);
         }
     }
@@ -98,14 +99,12 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
         for (int edge = 0; edge < 3; ++edge) owners[edge_key(tree.polygons[i], edge)].push_back(i);
     std::vector<Spot> found;
     for (const Fragment<3>& fragment : tree.fragments)
-        for (std::size_t i = 0; i < fragment.corners.size(); ++i) {
-            const Carrier before =
-                fragment.corners[(i + fragment.corners.size() - 1) % fragment.corners.size()]
-                    .carrier;
-            if (!before.is_original() || fragment.corners[i].carrier.is_original()) continue;
+        for (const auto& corner : fragment.corners) {
+            const auto [before, after] = corner.carriers;
+            if (!before.is_original() || after.is_original()) continue;
             const auto& both = owners[edge_key(tree.polygons[fragment.polygon], before.edge())];
             if (both.size() == 2)
-                found.push_back({{both[0], both[1]}, fragment.polygon, fragment.corners[i].at});
+                found.push_back({{both[0], both[1]}, fragment.polygon, corner.at});
         }
     return found;
 }
@@ -117,13 +116,12 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
 
 void draw_fragments_hit(const Options& options) {
     const std::vector<Triangle> triangles = teapot(5).triangles();
-    const std::vector<Corners<3>> polygons = corners(triangles);
     std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
                                   {Grade::ordered_float, "canonical order", {}},
                                   {Grade::ordered_double, "in double", {}},
                                   {Grade::exact, "exact", {}}}};
     for (Graded& g : graded) {
-        g.tree = BspBuilder<3>::build(polygons, {.grade = g.grade});
+        g.tree = BspBuilder<3>::build(triangles, {.grade = g.grade});
         g.fragments.emplace(g.tree, g.grade);
     }
 
@@ -201,7 +199,7 @@ void draw_painting(const Options& options) {
                   samples = 3;  // of each stage; rays for a pixel, both ways
     Scene scene = make_scene("room:3", options.seed);
     scene.background = Color(1.0f);  // what is not yet painted
-    const BspTree<3> tree = BspBuilder<3>::build(corners(scene.mesh.triangles()));
+    const BspTree<3> tree = BspBuilder<3>::build(scene.mesh.triangles());
     const FragmentRays covers(tree, Grade::exact);
 
     Image fine(samples * width, samples * height);

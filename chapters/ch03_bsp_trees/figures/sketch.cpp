@@ -14,11 +14,11 @@ std::vector<Point2> PlaneView::operator()(const ConvexCell& cell) const {
 
 Style cell_style(const Story& story, std::size_t cell) {
     // Cells in front of the root's splitter in one colour, those behind it in another.
-    std::int32_t node = story.cells[cell].node;
+    std::uint32_t node = story.cells[cell].node;
     bool in_front = story.cells[cell].in_front;
-    while (node > 0) {
-        in_front = story.turns[static_cast<std::size_t>(node)].in_front;
-        node = story.turns[static_cast<std::size_t>(node)].parent;
+    while (node != 0) {
+        in_front = story.turns[node].in_front;
+        node = story.turns[node].parent;
     }
     constexpr double opacities[] = {0.14, 0.42, 0.26, 0.54, 0.2};
     return {

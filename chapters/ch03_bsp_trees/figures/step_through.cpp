@@ -54,11 +54,9 @@ Script script_of(const Story& story) {
         const Turn& turn = story.turns[i];
         const std::string splitter = plain(story.pieces[turn.own.front()]);
         std::string set = plain(story, turn.set);
-        if (turn.parent >= 0)
-            set += fmt::format(
-                ", {} {},", turn.in_front ? "in front of" : "behind",
-                plain(
-                    story.pieces[story.turns[static_cast<std::size_t>(turn.parent)].own.front()]));
+        if (turn.parent != BspTree<2>::none)
+            set += fmt::format(", {} {},", turn.in_front ? "in front of" : "behind",
+                               plain(story.pieces[story.turns[turn.parent].own.front()]));
         const auto now = [&] { return static_cast<int>(script.steps.size()); };
         if (turn.set.size() == 1) {
             script.of_turn.push_back({now(), now(), now()});
@@ -126,7 +124,6 @@ void draw_step_through(const Options& options) {
     const Script script = script_of(story);
     const TreeLayout layout = layout_of(story);
     const int last = static_cast<int>(script.steps.size()) - 1;
-    const auto number = [](std::int32_t node) { return static_cast<std::size_t>(node); };
 
     constexpr double slot = 34, level = 74, radius = 20;
     Svg svg("fig_03_10",
@@ -209,23 +206,23 @@ void draw_step_through(const Options& options) {
         const Turn& turn = story.turns[i];
         const Steps& steps = script.of_turn[i];
         const Point2 centre = place(layout.nodes[i]);
-        if (turn.parent >= 0) {
-            const Point2 parent = place(layout.nodes[number(turn.parent)]);
-            svg.begin_step(script.of_turn[number(turn.parent)].placed);
+        if (turn.parent != BspTree<2>::none) {
+            const Point2 parent = place(layout.nodes[turn.parent]);
+            svg.begin_step(script.of_turn[turn.parent].placed);
             svg.line(parent, centre, {.stroke = turn.in_front ? Ink::blue : Ink::vermillion});
             svg.end_group();
         }
         if (steps.chosen > 0) {
-            const int waits_from = turn.parent < 0 ? 0 : script.of_turn[number(turn.parent)].placed;
+            const int waits_from =
+                turn.parent == BspTree<2>::none ? 0 : script.of_turn[turn.parent].placed;
             svg.begin_step(waits_from, steps.chosen - 1);
             svg.text(moved(centre, 0, 16), written(story, turn.set), {.size = 20, .halo = true});
             svg.end_group();
         }
     }
     for (std::size_t i = 0; i < story.cells.size(); ++i) {
-        const Point2 from = place(layout.nodes[number(story.cells[i].node)]),
-                     to = place(layout.cells[i]);
-        svg.begin_step(script.of_turn[number(story.cells[i].node)].placed);
+        const Point2 from = place(layout.nodes[story.cells[i].node]), to = place(layout.cells[i]);
+        svg.begin_step(script.of_turn[story.cells[i].node].placed);
         svg.line(from, to, {.stroke = Ink::quiet, .dashed = true});
         svg.rect(moved(to, -14, -14), at(28, 28), {.stroke = Ink::quiet, .fill = Ink::paper});
         svg.end_group();

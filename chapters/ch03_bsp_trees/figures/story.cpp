@@ -16,30 +16,26 @@ class Watcher {
             story_.pieces.push_back({std::string(1, static_cast<char>('A' + static_cast<int>(i))),
                                      i, Double2(segments[i].a), Double2(segments[i].b)});
     }
-    template <int D>
-    void chosen(const SplitPlane<D>&, std::optional<std::uint32_t> polygon, std::int32_t,
-                std::int32_t parent, bool in_front) {
-        story_.turns.push_back({parent, in_front, polygon, {}, {}, {}, {}, {}, {}});
+    void observe(const BspBuilder<2>::Chosen& event) {
+        story_.turns.push_back(
+            {event.parent, event.in_front, event.polygon, {}, {}, {}, {}, {}, {}});
     }
-    template <int D>
-    void placed(const Fragment<D>& fragment, Side side) {
-        const std::size_t piece = number_of(fragment);
+    void observe(const BspBuilder<2>::Placed& event) {
+        const std::size_t piece = number_of(event.fragment);
         Turn& turn = story_.turns.back();
         turn.set.push_back(piece);
-        if (side == Side::front) turn.front.push_back(piece);
-        if (side == Side::back) turn.back.push_back(piece);
-        if (side == Side::on) turn.own.push_back(piece);
+        if (event.side == PlaneSide::front) turn.front.push_back(piece);
+        if (event.side == PlaneSide::back) turn.back.push_back(piece);
+        if (event.side == PlaneSide::coplanar) turn.own.push_back(piece);
     }
-    template <int D>
-    void cut(const Fragment<D>& whole, const Fragment<D>& front, const Fragment<D>& back) {
-        const std::size_t piece = number_of(whole);
+    void observe(const BspBuilder<2>::Cut& event) {
+        const std::size_t piece = number_of(event.whole);
         Turn& turn = story_.turns.back();
-        turn.cuts.push_back({piece, add(piece, front, '1'), add(piece, back, '2')});
+        turn.cuts.push_back({piece, add(piece, event.front, '1'), add(piece, event.back, '2')});
         turn.front.push_back(turn.cuts.back().front);
         turn.back.push_back(turn.cuts.back().back);
     }
-    template <int D>
-    std::size_t number_of(const Fragment<D>& fragment) const {
+    std::size_t number_of(const Fragment<2>& fragment) const {
         const auto same = [&](const Piece& piece) {
             return piece.polygon == fragment.polygon && piece.from == fragment.corners[0].at &&
                    piece.to == fragment.corners[1].at;
@@ -49,8 +45,7 @@ class Watcher {
     }
 
   private:
-    template <int D>
-    std::size_t add(std::size_t whole, const Fragment<D>& fragment, char suffix) {
+    std::size_t add(std::size_t whole, const Fragment<2>& fragment, char suffix) {
         story_.pieces.push_back({story_.pieces[whole].name + suffix, fragment.polygon,
                                  fragment.corners[0].at, fragment.corners[1].at});
         return story_.pieces.size() - 1;
@@ -108,31 +103,27 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config,
                     const ConvexCell& frame) {
     Story story;
     Watcher watcher(story, segments);
-    story.tree = BspBuilder<2, Watcher&>::build(corners(segments), config, watcher);
+    story.tree = BspBuilder<2>::build(segments, config, watcher);
     for (const Fragment<2>& fragment : story.tree.fragments)
         story.fragment_pieces.push_back(watcher.number_of(fragment));
-    const auto line_of = [&](std::int32_t node) {
-        return story.tree.planes[story.tree.nodes[static_cast<std::size_t>(node)].plane];
+    const auto line_of = [&](std::uint32_t node) {
+        return story.tree.planes[story.tree.nodes[node].plane];
     };
     for (Turn& turn : story.turns)
-        turn.cell = turn.parent == BspTree<2>::none
-                        ? frame
-                        : part_of(story.turns[static_cast<std::size_t>(turn.parent)].cell,
-                                  line_of(turn.parent), turn.in_front);
+        turn.cell = turn.parent == BspTree<2>::none ? frame
+                                                    : part_of(story.turns[turn.parent].cell,
+                                                              line_of(turn.parent), turn.in_front);
 
     // From left to right: behind a node, then before it.
-    const auto visit = [&](const auto& self, std::int32_t node) -> void {
-        const auto& children = story.tree.nodes[static_cast<std::size_t>(node)];
+    const auto visit = [&](const auto& self, std::uint32_t node) -> void {
+        const auto& children = story.tree.nodes[node];
         for (const bool in_front : {false, true}) {
-            const std::int32_t child = in_front ? children.front : children.back;
+            const std::uint32_t child = in_front ? children.front : children.back;
             if (child != BspTree<2>::none)
                 self(self, child);
             else
-                story.cells.push_back({node,
-                                       in_front,
-                                       part_of(story.turns[static_cast<std::size_t>(node)].cell,
-                                               line_of(node), in_front),
-                                       {}});
+                story.cells.push_back(
+                    {node, in_front, part_of(story.turns[node].cell, line_of(node), in_front), {}});
         }
     };
     if (!story.tree.nodes.empty()) visit(visit, 0);
@@ -143,7 +134,8 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config,
 Story heinonen_story() {
     static constexpr std::uint32_t order[] = {6, 4, 1, 0};  // G, E, B, A
     constexpr double size = heinonen_size;
-    return watched_build(heinonen_segments(), {.splitter = SplitterChoice::first, .order = order},
+    return watched_build(heinonen_segments(),
+                         {.splitter = BspConfig::SplitterChoice::first, .order = order},
                          {{0.0, 0.0}, {size, 0.0}, {size, size}, {0.0, size}});
 }
 
@@ -163,24 +155,21 @@ TreeLayout layout_of(const Story& story) {
     TreeLayout layout;
     layout.nodes.resize(story.turns.size());
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
-        const std::int32_t parent = story.turns[i].parent;
-        const double level = parent == BspTree<2>::none
-                                 ? 0.0
-                                 : layout.nodes[static_cast<std::size_t>(parent)].y + 1.0;
+        const std::uint32_t parent = story.turns[i].parent;
+        const double level = parent == BspTree<2>::none ? 0.0 : layout.nodes[parent].y + 1.0;
         layout.nodes[i].y = level;
         layout.levels = std::max(layout.levels, static_cast<std::size_t>(level) + 2);
     }
     for (std::size_t i = 0; i < story.cells.size(); ++i)
         layout.cells.push_back(
-            {static_cast<double>(i) + 0.5,
-             layout.nodes[static_cast<std::size_t>(story.cells[i].node)].y + 1.0});
+            {static_cast<double>(i) + 0.5, layout.nodes[story.cells[i].node].y + 1.0});
     // A node stands over the middle of its children; those come after it in the list.
     for (std::size_t i = story.turns.size(); i-- > 0;) {
         double sum = 0.0;
         for (std::size_t c = 0; c < story.cells.size(); ++c)
-            if (story.cells[c].node == static_cast<std::int32_t>(i)) sum += layout.cells[c].x;
+            if (story.cells[c].node == i) sum += layout.cells[c].x;
         for (std::size_t c = i + 1; c < story.turns.size(); ++c)
-            if (story.turns[c].parent == static_cast<std::int32_t>(i)) sum += layout.nodes[c].x;
+            if (story.turns[c].parent == i) sum += layout.nodes[c].x;
         layout.nodes[i].x = sum / 2.0;
     }
     return layout;

@@ -14,8 +14,6 @@
 
 namespace space::ch03 {
 
-using Double2 = DoublePoint<2>;
-
 /// A convex part of the plane: its corners in order.
 using ConvexCell = std::vector<Double2>;
 
@@ -32,7 +30,7 @@ struct Piece {
 /// One turn of the builder's loop: a splitter, and where it sends the others. Pieces are numbers in
 /// Story::pieces.
 struct Turn {
-    std::int32_t parent;
+    std::uint32_t parent;
     bool in_front;  ///< of the parent
     std::optional<std::uint32_t> splitter;
     std::vector<std::size_t> set, front, back, own;
@@ -46,7 +44,7 @@ struct Turn {
 
 /// An empty part of the plane at the bottom of the tree: a missing child of a node.
 struct EmptyCell {
-    std::int32_t node;
+    std::uint32_t node;
     bool in_front;
     ConvexCell cell;
     Double2 place;  ///< for its number: far from its sides and from all pieces

@@ -14,20 +14,18 @@ using namespace space::ch03;
 /// Polygons and their planes, in no order that a branch could be predicted from.
 struct Soup {
     std::vector<Triangle> triangles = make_scene("soup:1024").mesh.triangles();
-    std::vector<Corners<3>> polygons;
     std::vector<SplitPlane<3>> planes;
     std::vector<Fragment<3>> fragments;
 
     Soup() {
         for (const Triangle& triangle : triangles) {
-            polygons.push_back(corners(triangle));
-            planes.emplace_back(polygons.back());
-            fragments.push_back(whole_polygon<3>(polygons.back(), std::uint32_t(fragments.size())));
+            planes.emplace_back(triangle);
+            fragments.push_back(whole_polygon<3>(triangle, std::uint32_t(fragments.size())));
         }
     }
-    Splitter<3> splitter(Grade grade) const {
+    Cutter<3> cutter(Grade grade) const {
         // A thickness as the builder's: eight roundings of coordinates up to 1.
-        return {polygons, planes, grade,
+        return {triangles, planes, grade,
                 8.0 * (grade == Grade::ordered_double ? 0x1p-53 : 0x1p-24)};
     }
 };
@@ -48,12 +46,12 @@ std::vector<Ray> camera_rays() {
 }
 
 void classify(benchmark::State& state) {
-    const Splitter<3> splitter = soup().splitter(Grade(state.range(0)));
+    const Cutter<3> cutter = soup().cutter(Grade(state.range(0)));
     std::vector<int> sides;
     std::uint32_t i = 0;
     for (auto _ : state) {
-        splitter.classify(soup().fragments[i % 1024], i / 7 % 1024, sides);
-        benchmark::DoNotOptimize(Splitter<3>::place(sides));
+        cutter.corner_sides(soup().fragments[i % 1024], i / 7 % 1024, sides);
+        benchmark::DoNotOptimize(Cutter<3>::classify(sides));
         ++i;
     }
     state.SetLabel(grade_names[std::size_t(state.range(0))].first);
@@ -61,7 +59,7 @@ void classify(benchmark::State& state) {
 BENCHMARK(classify)->DenseRange(0, 3);
 
 void split(benchmark::State& state) {
-    const Splitter<3> splitter = soup().splitter(Grade(state.range(0)));
+    const Cutter<3> cutter = soup().cutter(Grade(state.range(0)));
     struct Cut {
         std::uint32_t fragment, plane;
         std::vector<int> sides;
@@ -70,14 +68,14 @@ void split(benchmark::State& state) {
     for (std::uint32_t fragment = 0; fragment < 64; ++fragment)
         for (std::uint32_t plane = 0; plane < 1024; ++plane) {
             Cut cut{fragment, plane, {}};
-            splitter.classify(soup().fragments[fragment], plane, cut.sides);
-            if (Splitter<3>::place(cut.sides) == Side::across) cuts.push_back(cut);
+            cutter.corner_sides(soup().fragments[fragment], plane, cut.sides);
+            if (Cutter<3>::classify(cut.sides) == PlaneSide::straddling) cuts.push_back(cut);
         }
     std::size_t i = 0;
     for (auto _ : state) {
         const Cut& cut = cuts[i++ % cuts.size()];
         benchmark::DoNotOptimize(
-            splitter.split(soup().fragments[cut.fragment], cut.sides, cut.plane));
+            cutter.split(soup().fragments[cut.fragment], cut.sides, cut.plane));
     }
     state.SetLabel(grade_names[std::size_t(state.range(0))].first);
 }
@@ -87,7 +85,7 @@ void side_by_filter(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(
-            side_filter(soup().planes[i / 7 % 1024], Double3(soup().polygons[i % 1024][0]), 0.0));
+            side_filter(soup().planes[i / 7 % 1024], Double3(soup().triangles[i % 1024][0]), 0.0));
         ++i;
     }
 }
@@ -97,7 +95,7 @@ void side_by_whole_numbers(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(
-            exact_side<3>(soup().polygons[i / 7 % 1024], soup().polygons[i % 1024][0]));
+            exact_side<3>(soup().triangles[i / 7 % 1024], soup().triangles[i % 1024][0]));
         ++i;
     }
 }

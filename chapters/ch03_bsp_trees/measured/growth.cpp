@@ -94,7 +94,7 @@ void grow(Growth& growth, const Method& method, const TreeTask& task, const Amou
     }
     try {
         growth.points.push_back(measure_tree(task, method, limits.max_fragments));
-    } catch (const Error&) {
+    } catch (const LimitError&) {
         growth.stopped =
             fmt::format("{} have more than {} fragments", with_commas(task.triangles.size()),
                         with_commas(limits.max_fragments));

@@ -2,6 +2,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/parallel.hpp"
+#include "common/program/error.hpp"
 #include "common/program/progress.hpp"
 #include "common/random.hpp"
 #include "common/scene.hpp"
@@ -16,13 +17,11 @@ namespace space::ch03 {
 namespace {
 
 /// Counts what goes where; what is chosen and cut does not matter.
-struct PlacedCounter : NoBspObserver {
+struct PlacedCounter : NoObserver {
     std::uint64_t count = 0;
 
-    template <int D>
-    void placed(const Fragment<D>&, Side) {
-        ++count;
-    }
+    using NoObserver::observe;
+    void observe(const BspBuilder<3>::Placed&) { ++count; }
 };
 
 }  // namespace
@@ -118,7 +117,7 @@ MethodTrees measure_methods(const std::string& scene, const Options& options) {
         try {
             result.trees.push_back(
                 measure_tree(task, method, max_scene_fragments, max_scene_placed));
-        } catch (const Error& error) {
+        } catch (const LimitError& error) {
             result.given_up.push_back(fmt::format("{}: {}", method.name, error.what()));
         }
         progress.step();
@@ -159,7 +158,7 @@ namespace {
 int slope_sign(const Ray& ray, const SplitPlane<3>& plane) {
     const Double3 direction(ray.direction);
     const double slope = glm::dot(plane.normal, direction);
-    const double error = 16.0 * 0x1p-53 * plane.size * SplitPlane<3>::one_norm(direction);
+    const double error = sum_roundings * plane.size * one_norm<3>(direction);
     return std::abs(slope) <= error ? 0 : slope > 0.0 ? 1 : -1;
 }
 
@@ -210,7 +209,7 @@ std::vector<GradePoint> measure_grades(const Options& options) {
             progress.step(grade_names.size());
             continue;
         }
-        const std::vector<Corners<3>> polygons = corners(scene->mesh.triangles());
+        const std::vector<Triangle> polygons = scene->mesh.triangles();
 
         std::vector<std::function<void()>> builds;
         std::vector<BspTree<3>> trees(grade_names.size());

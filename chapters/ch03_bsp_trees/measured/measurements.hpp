@@ -19,6 +19,9 @@
 
 namespace space::ch03 {
 
+using SplitterChoice = BspConfig::SplitterChoice;
+using Straddlers = BspConfig::Straddlers;
+
 /// How trees are built, by the names that tables and options use.
 struct Method {
     std::string_view name;
@@ -79,7 +82,7 @@ struct TreeTask {
 
     TreeTask(std::string name, std::vector<Triangle> all, const Options& options);
 };
-/// @throws Error where the tree would have more than max_fragments
+/// @throws LimitError where the tree would have more than max_fragments
 TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t max_fragments,
                        std::uint64_t max_placed = BspConfig{}.max_placed);
 

@@ -9,13 +9,13 @@
 
 namespace space {
 
-inline Side classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
-    Side side = Side::on;
-    double before = plane.distance(DoublePoint<3>(polygon.back()));
+inline PlaneSide classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
+    PlaneSide side = PlaneSide::coplanar;
+    double before = plane.distance(Double3(polygon.back()));
     for (const Point3& corner : polygon) {
-        const double distance = plane.distance(DoublePoint<3>(corner));
-        if (before * distance < 0.0) return Side::across;
-        if (distance != 0.0) side = distance > 0.0 ? Side::front : Side::back;
+        const double distance = plane.distance(Double3(corner));
+        if (before * distance < 0.0) return PlaneSide::straddling;
+        if (distance != 0.0) side = distance > 0.0 ? PlaneSide::front : PlaneSide::back;
         before = distance;
     }
     return side;

@@ -17,7 +17,7 @@ struct Pieces {
 inline Pieces split(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
     Pieces pieces;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const DoublePoint<3> p(polygon[i]), q(polygon[(i + 1) % polygon.size()]);
+        const Double3 p(polygon[i]), q(polygon[(i + 1) % polygon.size()]);
         const double at_p = plane.distance(p), at_q = plane.distance(q);
         (at_p >= 0.0 ? pieces.front : pieces.back).push_back(polygon[i]);
         if ((at_p >= 0.0) != (at_q >= 0.0)) {

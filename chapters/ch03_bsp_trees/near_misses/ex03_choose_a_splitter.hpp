@@ -12,26 +12,28 @@
 namespace space {
 
 /// Exercise 3.1 in the plane.
-inline Side classify(const Segment& segment, const SplitPlane<2>& line) {
-    const double a = line.distance(DoublePoint<2>(segment.a));
-    const double b = line.distance(DoublePoint<2>(segment.b));
-    if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) return Side::across;
-    return a > 0.0 || b > 0.0 ? Side::front : a < 0.0 || b < 0.0 ? Side::back : Side::on;
+inline PlaneSide classify(const Segment& segment, const SplitPlane<2>& line) {
+    const double a = line.distance(Double2(segment.a));
+    const double b = line.distance(Double2(segment.b));
+    if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) return PlaneSide::straddling;
+    return a > 0.0 || b > 0.0   ? PlaneSide::front
+           : a < 0.0 || b < 0.0 ? PlaneSide::back
+                                : PlaneSide::coplanar;
 }
 
 inline std::size_t choose_splitter(std::span<const Segment> set,
                                    std::span<const std::size_t> candidates, double split_weight) {
     std::size_t best = candidates[0];
-    double best_price = std::numeric_limits<double>::infinity();
+    double best_cost = std::numeric_limits<double>::infinity();
     for (const std::size_t candidate : candidates) {
-        const SplitPlane<2> line(corners(set[candidate]));
+        const SplitPlane<2> line(set[candidate]);
         double front = 0.0, back = 0.0, cuts = 0.0;
         for (const Segment& segment : set) {
             switch (classify(segment, line)) {
-                case Side::front:
+                case PlaneSide::front:
                     ++front;
                     break;
-                case Side::across:
+                case PlaneSide::straddling:
                     ++cuts;
                     break;
                 default:
@@ -39,10 +41,10 @@ inline std::size_t choose_splitter(std::span<const Segment> set,
                     break;
             }
         }
-        const double price = std::abs(front - back) + split_weight * cuts;
-        if (price >= best_price) continue;
+        const double cost = std::abs(front - back) + split_weight * cuts;
+        if (cost >= best_cost) continue;
         best = candidate;
-        best_price = price;
+        best_cost = cost;
     }
     return best;
 }

@@ -12,7 +12,7 @@ namespace space {
 
 inline std::vector<std::uint32_t> painters_order(const BspTree<2>& tree, const Point2& eye) {
     struct Task {
-        std::int32_t node;
+        std::uint32_t node;
         bool own;
     };
     std::vector<std::uint32_t> order;
@@ -21,7 +21,7 @@ inline std::vector<std::uint32_t> painters_order(const BspTree<2>& tree, const P
         const auto [index, own] = tasks.back();
         tasks.pop_back();
         if (index == tree.none) continue;
-        const auto& node = tree.nodes[static_cast<std::size_t>(index)];
+        const auto& node = tree.nodes[index];
         if (own) {
             for (std::uint32_t i = 0; i < node.count; ++i) order.push_back(node.first + i);
             continue;

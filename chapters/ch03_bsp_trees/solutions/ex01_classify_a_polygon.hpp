@@ -8,14 +8,17 @@
 
 namespace space {
 
-inline Side classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
+inline PlaneSide classify(std::span<const Point3> polygon, const SplitPlane<3>& plane) {
     bool front = false, back = false;
     for (const Point3& corner : polygon) {
-        const double distance = plane.distance(DoublePoint<3>(corner));
+        const double distance = plane.distance(Double3(corner));
         front = front || distance > 0.0;
         back = back || distance < 0.0;
     }
-    return front && back ? Side::across : front ? Side::front : back ? Side::back : Side::on;
+    return front && back ? PlaneSide::straddling
+           : front       ? PlaneSide::front
+           : back        ? PlaneSide::back
+                         : PlaneSide::coplanar;
 }
 
 }  // namespace space

@@ -7,6 +7,9 @@
 namespace space {
 namespace {
 
+using SplitterChoice = BspConfig::SplitterChoice;
+using Straddlers = BspConfig::Straddlers;
+
 Structure offer_bsp(std::string_view name, std::string_view about, SplitterChoice splitter,
                     Straddlers straddlers = Straddlers::split) {
     return offer<Bsp>(name, about, [=](BspConfig& config, const Limits& limits) {
