@@ -30,6 +30,8 @@ ends 2 'nonsense: there is no such command' nonsense
 ends 2 'chapter 99: there is none; there are: 1' run 99
 ends 2 'chapter x: there is none' run x
 ends 2 'unknown option --fast' run --fast
+ends 2 'give a chapter' try
+ends 2 'chapter 99: there is none' try 99
 ends 2 'wants a full run' run --quick --update
 ends 2 'chapter 99: there is none' bench 99
 ends 2 'address or thread' test --sanitize
@@ -42,7 +44,7 @@ ends 2 'give one exercise' exercise check
 ends 2 'give one exercise' exercise check 1.1 1.2
 ends 2 'there is list' exercise solve 1.1
 ends 2 'takes no more' docs 1
-ends 2 'takes no more' doctor 1
+ends 2 'takes --install and no more' doctor 1
 ends 2 'unknown option --all' figures --all
 ends 0 'g\+\+ ' doctor
 

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# chapters_are_whole.sh ROOT: proves that each chapter has what its tests hang on, so that none is left out in silence: a
+# CMakeLists.txt with add_chapter and, once it has a program, its text, the expected output of --small, tests, and a line
+# in the lists of chapters. Prints each fault; fails if there are any.
+set -euo pipefail
+cd "$1"
+faults=0
+fault() { printf '%s\n' "$1" && faults=1; }
+
+for folder in chapters/*/; do
+    folder=${folder%/} chapter=$(basename "$folder")
+    [[ $chapter =~ ^ch[0-9]{2}_[a-z0-9_]+$ ]] || fault "$folder: not named chNN_name"
+    grep -qs '^add_chapter(' "$folder/CMakeLists.txt" || fault "$folder/CMakeLists.txt: missing, or without add_chapter"
+    [[ -f $folder/main.cpp ]] || continue
+    for file in README.md chapter.dox measured/expected_small.txt; do
+        [[ -s $folder/$file ]] || fault "$folder/$file: missing or empty"
+    done
+    grep -qsw -- "${chapter%%_*}" tests/*/CMakeLists.txt || grep -qs -- "${chapter%%_*}_" tests/*/CMakeLists.txt ||
+        fault "tests/${chapter%%_*}/CMakeLists.txt: no test of the chapter"
+    grep -qF "\"$chapter\"" docs/chapters.json || fault "docs/chapters.json: no $chapter"
+    grep -qF "(chapters/$chapter)" README.md || fault "README.md: no link to chapters/$chapter"
+done
+exit $faults
