@@ -4,8 +4,8 @@
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/measure.hpp"
-#include "common/random.hpp"
 #include "common/program/progress.hpp"
+#include "common/random.hpp"
 
 #include <fmt/format.h>
 
