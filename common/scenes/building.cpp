@@ -89,68 +89,76 @@ void add_shelf(Parts& parts, const Double3& place, Pcg32& random) {
     parts.push_back({moved(boards, place), srgb(0x8A6244)});
 }
 
-enum Kind { living, dining, bedroom, study };
+const Color wood = srgb(0x94694A);
 
-Parts furnished(Kind kind) {
+Parts living_room() {
     Parts parts;
-    Pcg32 random(kind);
-    const Color wood = srgb(0x94694A), linen = srgb(0xEFE8DA);
-    if (kind == living) {
-        parts.push_back({joined({box({0.9, 0.1, 0.15}, {2.9, 0.42, 1.0}),
-                                 box({0.9, 0.42, 0.15}, {2.9, 0.85, 0.35}),
-                                 box({0.7, 0.1, 0.15}, {0.9, 0.62, 1.0}),
-                                 box({2.9, 0.1, 0.15}, {3.1, 0.62, 1.0})}),
-                         srgb(0x3D6C7C)});
-        parts.push_back({moved(cushion(0.5, 0.42, 0.2), {1.0, 0.44, 0.38}), srgb(0xD9A441)});
-        parts.push_back({moved(cushion(0.5, 0.42, 0.2), {2.3, 0.44, 0.38}), srgb(0xC8553D)});
-        parts.push_back({moved(table(1.1, 0.55, 0.4), {1.4, 0, 1.5}), wood});
-        parts.push_back(
-            {moved(transformed(teapot(4), glm::dmat3(0.7)), {1.9, 0.4, 1.75}), srgb(0xE6E0D2)});
-        parts.push_back({box({0.8, 0, 1.2}, {3.2, 0.015, 2.6}), srgb(0xD8B98C)});
-        add_lamp(parts, {3.45, 0, 0.5});
-        add_plant(parts, {0.35, 0, 0.5});
-    } else if (kind == dining) {
-        const glm::dvec2 round[] = {
-            {0.0, 0.70}, {0.66, 0.70}, {0.68, 0.72}, {0.66, 0.74}, {0.0, 0.74}};
-        const glm::dvec2 leg[] = {
-            {0.28, 0.0}, {0.26, 0.03}, {0.05, 0.08}, {0.05, 0.60}, {0.15, 0.70}};
-        parts.push_back({moved(joined({lathe(round, 40), lathe(leg, 20)}), {2.0, 0, 1.7}), wood});
-        for (int seat = 0; seat < 4; ++seat)
-            parts.push_back({transformed(moved(chair(), {-0.22, 0, -1.02}),
-                                         rotation({0, 1, 0}, 90 * seat + 45), {2.0, 0, 1.7}),
-                             seat % 2 ? srgb(0xB5483A) : srgb(0xD9A441)});
-        parts.push_back({moved(teapot(5), {2.0, 0.74, 1.7}), srgb(0x4F8F86)});
-        for (int fruit = 0; fruit < 3; ++fruit)
-            parts.push_back({ball({2.3 + 0.09 * (fruit % 2), 0.785, 1.95 + 0.06 * fruit}, 0.045, 3),
-                             srgb(0xE08A2C)});
-        parts.push_back({box({0.0, 0, 0.0}, {2.4, 0.9, 0.5}), srgb(0xDAD3C4)});
-        parts.push_back({box({0.0, 0.9, 0.0}, {2.45, 0.94, 0.55}), srgb(0x5A5048)});
-        parts.push_back({box({0.2, 1.45, 0.0}, {2.2, 2.1, 0.3}), srgb(0xC9D3CF)});
-        add_plant(parts, {3.6, 0, 0.45});
-    } else if (kind == bedroom) {
-        parts.push_back({joined({box({0.7, 0.12, 0.1}, {2.3, 0.32, 2.2}),
-                                 box({0.7, 0.0, 0.04}, {2.3, 1.0, 0.1})}),
-                         wood});
-        parts.push_back({box({0.74, 0.32, 0.1}, {2.26, 0.5, 2.16}), linen});
-        parts.push_back({box({0.72, 0.42, 0.8}, {2.28, 0.54, 2.18}), srgb(0x7C8FB0)});
-        parts.push_back({moved(cushion(0.62, 0.18, 0.4), {0.82, 0.5, 0.18}), linen});
-        parts.push_back({moved(cushion(0.62, 0.18, 0.4), {1.56, 0.5, 0.18}), linen});
-        parts.push_back({moved(table(0.42, 0.42, 0.5), {2.4, 0, 0.1}), wood});
-        add_lamp(parts, {0.35, 0, 0.4});
-        add_shelf(parts, {2.85, 0, 0.02}, random);
-    } else {
-        parts.push_back({moved(table(1.6, 0.75, 0.74), {1.9, 0, 0.7}), wood});
-        parts.push_back({transformed(moved(chair(), {-0.22, 0, -0.22}), rotation({0, 1, 0}, 180),
-                                     {2.6, 0, 1.8}),
-                         srgb(0x39424A)});
-        parts.push_back({joined({box({2.35, 0.80, 0.85}, {2.95, 1.16, 0.88}),
-                                 box({2.6, 0.74, 0.83}, {2.7, 0.82, 0.86})}),
-                         srgb(0x2B3036)});
-        parts.push_back({ball({3.25, 0.89, 0.95}, 0.15, 6), srgb(0x5E93A8)});
-        parts.push_back({box({0.4, 0, 1.6}, {3.4, 0.015, 3.0}), srgb(0x9C4A3C)});
-        add_shelf(parts, {0.25, 0, 0.02}, random);
-        add_plant(parts, {3.6, 0, 0.4});
-    }
+    parts.push_back(
+        {joined({box({0.9, 0.1, 0.15}, {2.9, 0.42, 1.0}), box({0.9, 0.42, 0.15}, {2.9, 0.85, 0.35}),
+                 box({0.7, 0.1, 0.15}, {0.9, 0.62, 1.0}), box({2.9, 0.1, 0.15}, {3.1, 0.62, 1.0})}),
+         srgb(0x3D6C7C)});
+    parts.push_back({moved(cushion(0.5, 0.42, 0.2), {1.0, 0.44, 0.38}), srgb(0xD9A441)});
+    parts.push_back({moved(cushion(0.5, 0.42, 0.2), {2.3, 0.44, 0.38}), srgb(0xC8553D)});
+    parts.push_back({moved(table(1.1, 0.55, 0.4), {1.4, 0, 1.5}), wood});
+    parts.push_back(
+        {moved(transformed(teapot(4), glm::dmat3(0.7)), {1.9, 0.4, 1.75}), srgb(0xE6E0D2)});
+    parts.push_back({box({0.8, 0, 1.2}, {3.2, 0.015, 2.6}), srgb(0xD8B98C)});
+    add_lamp(parts, {3.45, 0, 0.5});
+    add_plant(parts, {0.35, 0, 0.5});
+    return parts;
+}
+
+Parts dining_room() {
+    Parts parts;
+    const glm::dvec2 round[] = {{0.0, 0.70}, {0.66, 0.70}, {0.68, 0.72}, {0.66, 0.74}, {0.0, 0.74}};
+    const glm::dvec2 leg[] = {{0.28, 0.0}, {0.26, 0.03}, {0.05, 0.08}, {0.05, 0.60}, {0.15, 0.70}};
+    parts.push_back({moved(joined({lathe(round, 40), lathe(leg, 20)}), {2.0, 0, 1.7}), wood});
+    for (int seat = 0; seat < 4; ++seat)
+        parts.push_back({transformed(moved(chair(), {-0.22, 0, -1.02}),
+                                     rotation({0, 1, 0}, 90 * seat + 45), {2.0, 0, 1.7}),
+                         seat % 2 ? srgb(0xB5483A) : srgb(0xD9A441)});
+    parts.push_back({moved(teapot(5), {2.0, 0.74, 1.7}), srgb(0x4F8F86)});
+    for (int fruit = 0; fruit < 3; ++fruit)
+        parts.push_back({ball({2.3 + 0.09 * (fruit % 2), 0.785, 1.95 + 0.06 * fruit}, 0.045, 3),
+                         srgb(0xE08A2C)});
+    parts.push_back({box({0.0, 0, 0.0}, {2.4, 0.9, 0.5}), srgb(0xDAD3C4)});
+    parts.push_back({box({0.0, 0.9, 0.0}, {2.45, 0.94, 0.55}), srgb(0x5A5048)});
+    parts.push_back({box({0.2, 1.45, 0.0}, {2.2, 2.1, 0.3}), srgb(0xC9D3CF)});
+    add_plant(parts, {3.6, 0, 0.45});
+    return parts;
+}
+
+Parts bedroom() {
+    Parts parts;
+    Pcg32 random(2);
+    const Color linen = srgb(0xEFE8DA);
+    parts.push_back(
+        {joined({box({0.7, 0.12, 0.1}, {2.3, 0.32, 2.2}), box({0.7, 0.0, 0.04}, {2.3, 1.0, 0.1})}),
+         wood});
+    parts.push_back({box({0.74, 0.32, 0.1}, {2.26, 0.5, 2.16}), linen});
+    parts.push_back({box({0.72, 0.42, 0.8}, {2.28, 0.54, 2.18}), srgb(0x7C8FB0)});
+    parts.push_back({moved(cushion(0.62, 0.18, 0.4), {0.82, 0.5, 0.18}), linen});
+    parts.push_back({moved(cushion(0.62, 0.18, 0.4), {1.56, 0.5, 0.18}), linen});
+    parts.push_back({moved(table(0.42, 0.42, 0.5), {2.4, 0, 0.1}), wood});
+    add_lamp(parts, {0.35, 0, 0.4});
+    add_shelf(parts, {2.85, 0, 0.02}, random);
+    return parts;
+}
+
+Parts study() {
+    Parts parts;
+    Pcg32 random(3);
+    parts.push_back({moved(table(1.6, 0.75, 0.74), {1.9, 0, 0.7}), wood});
+    parts.push_back(
+        {transformed(moved(chair(), {-0.22, 0, -0.22}), rotation({0, 1, 0}, 180), {2.6, 0, 1.8}),
+         srgb(0x39424A)});
+    parts.push_back({joined({box({2.35, 0.80, 0.85}, {2.95, 1.16, 0.88}),
+                             box({2.6, 0.74, 0.83}, {2.7, 0.82, 0.86})}),
+                     srgb(0x2B3036)});
+    parts.push_back({ball({3.25, 0.89, 0.95}, 0.15, 6), srgb(0x5E93A8)});
+    parts.push_back({box({0.4, 0, 1.6}, {3.4, 0.015, 3.0}), srgb(0x9C4A3C)});
+    add_shelf(parts, {0.25, 0, 0.02}, random);
+    add_plant(parts, {3.6, 0, 0.4});
     return parts;
 }
 
@@ -158,8 +166,7 @@ Parts furnished(Kind kind) {
 
 void make_building(Scene& scene, std::uint32_t storeys, std::uint64_t seed) {
     Pcg32 random(seed);
-    const std::array<Parts, 4> kinds{furnished(living), furnished(dining), furnished(bedroom),
-                                     furnished(study)};
+    const std::array<Parts, 4> kinds{living_room(), dining_room(), bedroom(), study()};
     const Color papers[] = {srgb(0xE9D9B8), srgb(0xC98F73), srgb(0x9DB8B0), srgb(0xB9C3D3),
                             srgb(0xD8A9A0), srgb(0xE6E2D8), srgb(0x7F9C8C)};
     const Color plaster = srgb(0xE7E0D4), outside = srgb(0xA9583F), floor = srgb(0xB58B62);

@@ -134,10 +134,11 @@ void make_tree(Scene& scene, std::uint32_t depth, std::uint64_t) {
     add_light(scene, {600, 50, 260}, {0, 0, 1}, Color{0.20f, 0.21f, 0.22f});
 }
 
-/// "mount": a square of 4^depth cells, each two triangles, raised by midpoint displacement
-/// (Fournier, Fussell & Carpenter 1982) with fractal dimension 2.2; above it four balls.
-void make_mount(Scene& scene, std::uint32_t depth, std::uint64_t seed) {
-    const std::uint32_t n = 1u << depth;
+namespace {
+
+/// Midpoint displacement (Fournier, Fussell & Carpenter 1982) with fractal dimension 2.2: the
+/// heights of (n + 1)^2 points, row by row; n is a power of 2.
+std::vector<double> displaced_heights(std::uint32_t n, std::uint64_t seed) {
     std::vector<double> heights(std::size_t{n + 1} * (n + 1), 0.0);
     const auto height = [&](std::uint32_t x, std::uint32_t y) -> double& {
         return heights[std::size_t{y} * (n + 1) + x];
@@ -168,10 +169,20 @@ void make_mount(Scene& scene, std::uint32_t depth, std::uint64_t seed) {
                 height(x, y) = 0.5 * ends + rise * displacement(x, y);
             }
     }
+    return heights;
+}
+
+}  // namespace
+
+/// "mount": a square of 4^depth cells, each two triangles, raised at random; above it four balls.
+void make_mount(Scene& scene, std::uint32_t depth, std::uint64_t seed) {
+    const std::uint32_t n = 1u << depth;
+    const std::vector<double> heights = displaced_heights(n, seed);
     TriangleMesh mesh;
     for (std::uint32_t y = 0; y <= n; ++y)
         for (std::uint32_t x = 0; x <= n; ++x)
-            mesh.vertices.emplace_back(2.0 * x / n - 1.0, 2.0 * y / n - 1.0, height(x, y));
+            mesh.vertices.emplace_back(2.0 * x / n - 1.0, 2.0 * y / n - 1.0,
+                                       heights[std::size_t{y} * (n + 1) + x]);
     for (std::uint32_t y = 0; y < n; ++y)
         for (std::uint32_t x = 0; x < n; ++x) {
             const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = b + n + 1, d = a + n + 1;

@@ -26,19 +26,20 @@ glm::dvec2 on_circle(std::uint32_t i, std::uint32_t n) {
     return {std::cos(angle), std::sin(angle)};
 }
 
+// The icosahedron: (0, +-1, +-phi) and its cyclic permutations.
+constexpr double phi = std::numbers::phi;
+const Double3 corners[12] = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
+                             {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
+                             {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
+constexpr std::uint32_t faces[20][3] = {
+    {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+
 }  // namespace
 
 TriangleMesh icosphere(std::uint32_t frequency) {
     const std::uint32_t f = frequency;
-    const double phi =
-        std::numbers::phi;  // (0, +-1, +-phi) and its cyclic permutations are an icosahedron
-    const Double3 corners[12] = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
-                                 {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
-                                 {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
-    constexpr std::uint32_t faces[20][3] = {
-        {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     TriangleMesh mesh;
     mesh.vertices.reserve(10 * std::size_t{f} * f + 2);
     mesh.faces.reserve(20 * std::size_t{f} * f);
