@@ -1,27 +1,26 @@
 #include "chapters/ch12_comparison/lab.hpp"
 
 #include "chapters/ch12_comparison/lab_options.hpp"
-#include "common/measure.hpp"
-#include "common/pcg32.hpp"
+#include "chapters/ch12_comparison/lab_report.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/report.hpp"
-#include "common/program/results.hpp"
-#include "common/scene.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
-#include <optional>
-#include <utility>
 
 namespace space {
 namespace {
 
-constexpr int json_version = 1;  // of the layout of --json
+constexpr const char* no_peers =
+    "this lab was built without Embree and CGAL (packages libembree-dev, libcgal-dev)";
+
+bool has_peers(std::span<const Structure> structures) {
+    return std::any_of(structures.begin(), structures.end(),
+                       [](const Structure& structure) { return structure.is_peer; });
+}
 
 std::string camera_text(const Camera& camera) {
     const auto& [eye, target, up, fov] = camera;
@@ -40,16 +39,11 @@ Scene load(const LabOptions& options) {
     return scene;
 }
 
-/// A structure with the triangle test to build it with.
-struct Choice {
-    std::string_view name;
-    const StructureVariant* variant;
-};
-
+/// A peer has one test, its own.
 Choice choose(const Structure& structure, const std::string& triangle_test) {
     for (const StructureVariant& variant : structure.variants)
-        if (triangle_test.empty() || triangle_test == variant.triangle_test)
-            return {structure.name, &variant};
+        if (triangle_test.empty() || triangle_test == variant.triangle_test || structure.is_peer)
+            return {&structure, &variant};
     throw usage_error(
         fmt::format("--triangle-test {}: {} has no such test (see --triangle-test list)",
                     triangle_test, structure.name));
@@ -60,20 +54,33 @@ std::vector<Choice> choose(std::span<const Structure> structures, const LabOptio
     for (const std::string& name : options.structures) {
         const std::size_t before = chosen.size();
         for (const Structure& structure : structures)
-            if (name == "all" || name == structure.name)
+            if (name == "all" || (name == "default" && structure.by_default) ||
+                name == structure.name)
                 chosen.push_back(choose(structure, options.triangle_test));
         if (chosen.size() == before)
             throw usage_error(
-                fmt::format("--structure {}: no such structure (see --structure list)", name));
+                fmt::format("--structure {}: no such structure (see --structure list){}", name,
+                            has_peers(structures) ? "" : std::string("; ") + no_peers));
     }
+    const auto is_against = [&](const Choice& choice) {
+        return choice.structure->name == options.against;
+    };
+    if (!options.against.empty() && std::none_of(chosen.begin(), chosen.end(), is_against))
+        throw usage_error(fmt::format(
+            "--against {}: it is none of the structures that are measured{}", options.against,
+            has_peers(structures) ? "" : std::string("; ") + no_peers));
+    if (!options.hits.empty() && chosen.size() != 1)
+        throw usage_error("--hits needs exactly one structure");
     return chosen;
 }
 
 int list_structures(std::span<const Structure> structures) {
-    Table table({"structure", "what it is"});
+    Table table({"structure", "from", "default", "what it is"});
     for (const Structure& structure : structures)
-        table.row({std::string(structure.name), std::string(structure.about)});
+        table.row({std::string(structure.name), std::string(structure.home),
+                   structure.by_default ? "yes" : "", std::string(structure.about)});
     table.print();
+    if (!has_peers(structures)) fmt::print("\npeers   left out: {}\n", no_peers);
     return static_cast<int>(ExitCode::ok);
 }
 
@@ -85,13 +92,35 @@ int list_triangle_tests(std::span<const Structure> structures) {
     return static_cast<int>(ExitCode::ok);
 }
 
+/// Exact answers to the rays, by the last structure of the latest chapter that stands.
+std::vector<HitRecord> exact_hits(std::span<const Structure> structures,
+                                  std::span<const Triangle> triangles, std::span<const Ray> rays,
+                                  const LabOptions& options) {
+    std::vector<HitRecord> hits(rays.size());
+    std::string_view tried;
+    for (auto structure = structures.rbegin(); structure != structures.rend(); ++structure) {
+        if (structure->is_peer || structure->home == tried) continue;
+        tried = structure->home;
+        try {
+            Progress progress("camera rays", rays.size());
+            structure->variants.front()
+                .build(triangles, options.build)
+                .trace({rays, hits, Query::closest, options.common.threads, &progress});
+            break;
+        } catch (const std::exception&) {
+            if (std::next(structure) == structures.rend()) throw;  // naive tracing
+        }
+    }
+    return hits;
+}
+
 struct RaySet {
     std::vector<Ray> rays;
     std::string source;  ///< the options that give them again
 };
 
 RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const Triangle> triangles,
-                 const Choice& tracer) {
+                 std::span<const Structure> structures) {
     if (!options.rays.empty()) return {read_rays(options.rays), "--rays " + options.rays.string()};
     const Camera camera = options.camera.value_or(scene.camera);
     const int width = options.common.width, height = options.common.height;
@@ -101,13 +130,7 @@ RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const 
                fmt::format("--camera {} --size {}x{}", camera_text(camera), width, height)};
     if (options.diffuse == 0) return set;
 
-    std::vector<HitRecord> hits(set.rays.size());
-    Progress progress("camera rays", set.rays.size());
-    tracer.variant->build(triangles, {options.build_threads})
-        .trace({.rays = set.rays,
-                .hits = hits,
-                .threads = options.common.threads,
-                .progress = &progress});
+    const std::vector<HitRecord> hits = exact_hits(structures, triangles, set.rays, options);
     set.rays = diffuse_rays(triangles, set.rays, hits, options.diffuse, options.common.seed);
     if (set.rays.empty())
         throw usage_error("--diffuse: no camera ray hits the mesh, so there is nowhere to start");
@@ -115,237 +138,80 @@ RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const 
     return set;
 }
 
-struct Measurement {
-    std::string_view structure;
-    double build_ms = 0.0, trace_ms = 0.0;
-    unsigned build_threads = 1;
-    TreeShape shape;
-    TraversalCounts counts;
-    std::vector<HitRecord> hits;
-
-    std::size_t hit_count() const {
-        return static_cast<std::size_t>(
-            std::count_if(hits.begin(), hits.end(), [](auto& hit) { return hit.is_hit(); }));
-    }
-    double rays_per_second() const { return static_cast<double>(hits.size()) / trace_ms * 1e3; }
-};
-
-std::vector<Measurement> measure(std::span<const Choice> chosen,
-                                 std::span<const Triangle> triangles, std::span<const Ray> rays,
-                                 const LabOptions& options) {
-    const std::size_t runs_each = static_cast<std::size_t>(options.repeat) + 1;  // one to warm up
-    std::vector<Measurement> measurements(chosen.size());
-    std::vector<BuiltStructure> built(chosen.size());
-    {
-        // The old structure is freed in a run of its own, so that no build is timed with it.
-        Progress progress("building", runs_each * chosen.size());
-        std::vector<std::function<void()>> runs;
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            runs.push_back([&, i] { built[i] = {}; });
-            runs.push_back([&, i] {
-                built[i] = chosen[i].variant->build(triangles, {options.build_threads});
-                progress.step();
-            });
-        }
-        const std::vector<double> medians = interleaved_medians(runs, options.repeat);
-        for (std::size_t i = 0; i < chosen.size(); ++i)
-            measurements[i].build_ms = medians[2 * i + 1];
-    }
-    {
-        Progress progress("tracing", runs_each * chosen.size() * rays.size());
-        std::vector<std::function<void()>> runs;
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            Measurement& measurement = measurements[i];
-            measurement.structure = chosen[i].name;
-            measurement.build_threads = built[i].build_threads;
-            measurement.shape = built[i].shape();
-            measurement.hits.resize(rays.size());
-            const Batch batch{rays, measurement.hits, options.query, options.common.threads,
-                              &progress};
-            // The first run, which warms up and is not timed, is the one that counts.
-            runs.push_back([&measurement, &structure = built[i], batch, counting = true]() mutable {
-                if (std::exchange(counting, false) && structure.count)
-                    measurement.counts = structure.count(batch);
-                else
-                    structure.trace(batch);
-            });
-        }
-        const std::vector<double> medians = interleaved_medians(runs, options.repeat);
-        for (std::size_t i = 0; i < chosen.size(); ++i) measurements[i].trace_ms = medians[i];
-    }
-    return measurements;
+void print_head(const Scene& scene, std::size_t degenerate, const RaySet& set, bool with_peers,
+                std::FILE* out) {
+    fmt::print(out, "mesh    {}: {}, {}, {} degenerate\n", scene.name,
+               scene.mesh.vertices.size() == 1
+                   ? "1 vertex"
+                   : with_commas(scene.mesh.vertices.size()) + " vertices",
+               counted(scene.mesh.faces.size(), "triangle"), with_commas(degenerate));
+    const auto invalid = static_cast<std::uint64_t>(std::count_if(
+        set.rays.begin(), set.rays.end(), [](const Ray& ray) { return !is_valid(ray); }));
+    fmt::print(out, "rays    {}: {}", set.source, counted(set.rays.size(), "ray"));
+    if (invalid) fmt::print(out, ", {} of them not valid: misses", with_commas(invalid));
+    fmt::print(out, "\n");
+    if (!with_peers) fmt::print(out, "peers   left out: {}\n", no_peers);
 }
 
-void print_measurements(std::span<const Measurement> measurements, const LabOptions& options) {
-    const auto count = [](const std::optional<std::size_t>& value) {
-        return value ? with_commas(*value) : "-";
-    };
-    Table work({"structure", "build ms", "trace ms", "Mrays/s", "hits", "visits/ray", "tests/ray"});
-    Table shape({"structure", "nodes", "leaves", "depth", "references", "bytes", "SAH cost"});
-    for (const Measurement& m : measurements) {
-        const std::string name(m.structure);
-        const auto per_ray = [&](std::uint64_t total) {
-            return fmt::format("{:.2f}",
-                               static_cast<double>(total) / static_cast<double>(m.hits.size()));
-        };
-        work.row({name, fmt::format("{:.3f}", m.build_ms), fmt::format("{:.3f}", m.trace_ms),
-                  fmt::format("{:.4f}", m.rays_per_second() * 1e-6), with_commas(m.hit_count()),
-                  m.shape.nodes ? per_ray(m.counts.nodes_visited) : "-",
-                  per_ray(m.counts.triangles_tested)});
-        shape.row({name, count(m.shape.nodes), count(m.shape.leaves), count(m.shape.depth),
-                   with_commas(m.shape.references), with_commas(m.shape.bytes),
-                   m.shape.sah_cost ? fmt::format("{:.2f}", *m.shape.sah_cost) : "-"});
-    }
-    fmt::print("query   {}{}; times: medians of {}, threads: {}\n\n", query_name(options.query),
-               options.triangle_test.empty() ? "" : " by " + options.triangle_test, options.repeat,
-               options.common.threads);
-    work.print();
-    fmt::print("\n");
-    shape.print();
-    fmt::print("\n");
+/// What to tell those whose camera looks past the mesh.
+void print_hint(const LabOptions& options, const Scene& scene,
+                std::span<const Measurement> measurements, std::FILE* out) {
+    if (!options.rays.empty() || options.diffuse > 0) return;
+    if (std::any_of(measurements.begin(), measurements.end(),
+                    [](const Measurement& m) { return !m.stands() || m.hit_count() > 0; }))
+        return;
+    const Aabb box = bounds(scene.mesh);
+    fmt::print(out,
+               "hint    no camera ray hits the mesh, which lies between ({}, {}, {}) and "
+               "({}, {}, {}): --camera ex,ey,ez,tx,ty,tz,fov\n\n",
+               box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
 }
 
-std::string json_text(const LabOptions& options, const Scene& scene, std::size_t degenerate,
-                      std::span<const Measurement> measurements) {
-    using Json = nlohmann::ordered_json;
-    const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
-    Json list = Json::array();
-    for (const Measurement& m : measurements)
-        list.push_back(
-            {{"structure", m.structure},
-             {"build_ms", m.build_ms},
-             {"trace_ms", m.trace_ms},
-             {"rays_per_s", m.rays_per_second()},
-             {"rays", m.hits.size()},
-             {"hits", m.hit_count()},
-             {"nodes", or_null(m.shape.nodes)},
-             {"leaves", or_null(m.shape.leaves)},
-             {"depth", or_null(m.shape.depth)},
-             {"references", m.shape.references},
-             {"bytes", m.shape.bytes},
-             {"sah_cost", or_null(m.shape.sah_cost)},
-             {"node_visits", m.shape.nodes ? Json(m.counts.nodes_visited) : Json(nullptr)},
-             {"triangle_tests", m.counts.triangles_tested},
-             {"threads", options.common.threads},
-             {"build_threads", m.build_threads}});
-    const Json mesh{{"name", scene.name},
-                    {"file", options.mesh.empty() ? Json(nullptr) : Json(options.mesh.string())},
-                    {"vertices", scene.mesh.vertices.size()},
-                    {"triangles", scene.mesh.faces.size()},
-                    {"degenerate", degenerate}};
-    const Json document{{"version", json_version},
-                        {"machine", machine_description()},
-                        {"mesh", mesh},
-                        {"query", query_name(options.query)},
-                        {"structures", list}};
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) +
-           '\n';  // a file's name may not be UTF-8
-}
-
-/// Prints every disagreement with naive tracing, and returns how many there are.
-std::size_t check(const Choice& naive, std::span<const Triangle> triangles,
-                  std::span<const Ray> rays, std::span<const Measurement> measurements,
-                  const LabOptions& options) {
-    const std::vector<std::size_t> sample =
-        check_sample(rays.size(), triangles.size(), options.common.seed);
-    std::vector<Ray> sample_rays;
-    for (const std::size_t i : sample) sample_rays.push_back(rays[i]);
-    std::vector<HitRecord> trusted(sample.size()), other(sample.size());
-    {
-        Progress progress("checking", sample.size());
-        naive.variant->build(triangles, {options.build_threads})
-            .trace({sample_rays, trusted, options.query, options.common.threads, &progress});
-    }
-    std::size_t wrong = 0;
-    for (const Measurement& m : measurements) {
-        std::transform(sample.begin(), sample.end(), other.begin(),
-                       [&](std::size_t i) { return m.hits[i]; });
-        const auto lines = disagreements({naive.name, trusted}, {m.structure, other}, sample);
-        for (const std::string& line : lines) fmt::print("{}\n", line);
-        wrong += lines.size();
-    }
-    if (sample.size() < rays.size())
-        fmt::print(
-            "check   a sample of {} of {} rays (naive tracing of all would be over {} tests): ",
-            with_commas(sample.size()), with_commas(rays.size()), with_commas(check_limit));
-    else
-        fmt::print("check   all {} rays: ", with_commas(rays.size()));
-    fmt::print("{} disagreement{}\n", with_commas(wrong), wrong == 1 ? "" : "s");
-    return wrong;
-}
-
-std::string answer_text(const HitRecord& hit) {
-    if (!hit.is_hit()) return "none";
-    if (hit.triangle == HitRecord::some_triangle) return "hit";
-    return fmt::format("triangle {} at t = {} (u = {}, v = {})", hit.triangle, hit.t, hit.u, hit.v);
+void write_to(std::FILE* out, const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), out);  // run_program sees whether it could be written
 }
 
 }  // namespace
-
-std::vector<std::size_t> check_sample(std::size_t rays, std::size_t triangles, std::uint64_t seed,
-                                      std::size_t limit) {
-    const std::size_t count =
-        std::min(rays, std::max<std::size_t>(1, limit / std::max<std::size_t>(1, triangles)));
-    std::vector<std::size_t> sample(count);
-    std::iota(sample.begin(), sample.end(), std::size_t{0});
-    if (count == rays) return sample;
-    Pcg32 random(seed);
-    for (std::size_t& i : sample) {
-        const std::size_t first = i * rays / count, last = (i + 1) * rays / count;
-        i = first + random.below(static_cast<std::uint32_t>(last - first));
-    }
-    return sample;
-}
-
-std::vector<std::string> disagreements(const Answers& trusted, const Answers& other,
-                                       std::span<const std::size_t> rays) {
-    std::vector<std::string> lines;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        if (trusted.hits[i] != other.hits[i])
-            lines.push_back(fmt::format("ray {}: {} {}, {} {}", rays[i], trusted.structure,
-                                        answer_text(trusted.hits[i]), other.structure,
-                                        answer_text(other.hits[i])));
-    return lines;
-}
 
 int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     const LabOptions options = parse_lab_options(argc, argv);
     if (options.structures.front() == "list") return list_structures(structures);
     if (options.triangle_test == "list") return list_triangle_tests(structures);
     const std::vector<Choice> chosen = choose(structures, options);
-    if (!options.hits.empty() && chosen.size() != 1)
-        throw usage_error("--hits needs exactly one structure");
-    for (const auto& output : {options.hits, options.json})
-        if (!output.empty()) check_writable(output);
+    check_outputs(options);
+    std::FILE* const out = options.json_to_stdout() ? stderr : stdout;
 
     const Scene scene = load(options);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const std::size_t degenerate = count_degenerate(triangles);
-    fmt::print("mesh    {}: {} vertices, {} triangles, {} degenerate\n", scene.name,
-               with_commas(scene.mesh.vertices.size()), with_commas(triangles.size()),
-               with_commas(degenerate));
+    const RaySet set = make_rays(options, scene, triangles, structures);
+    print_head(scene, degenerate, set, has_peers(structures), out);
 
-    const auto [rays, source] =
-        make_rays(options, scene, triangles, choose(structures.back(), options.triangle_test));
-    const auto invalid =
-        std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !is_valid(ray); });
-    fmt::print("rays    {}: {} rays", source, with_commas(rays.size()));
-    if (invalid)
-        fmt::print(", {} of them not valid: misses",
-                   with_commas(static_cast<std::uint64_t>(invalid)));
-    fmt::print("\n");
+    const std::vector<Measurement> measurements = measure(chosen, triangles, set.rays, options);
+    const auto against = std::find_if(measurements.begin(), measurements.end(),
+                                      [&](auto& m) { return m.name() == options.against; });
+    const Measurement* const reference = against == measurements.end() ? nullptr : &*against;
+    print_measurements(measurements, reference, options, out);
+    print_hint(options, scene, measurements, out);
+    std::vector<Checked> checked;
+    if (options.check) {
+        checked = check(structures.front(), triangles, set.rays, measurements, options, out);
+        print_checked(measurements, checked, out);
+    }
 
-    const std::vector<Measurement> measurements = measure(chosen, triangles, rays, options);
-    print_measurements(measurements, options);
-    std::size_t wrong = 0;
-    if (options.check)
-        wrong = check(choose(structures.front(), options.triangle_test), triangles, rays,
-                      measurements, options);
-
-    if (!options.hits.empty()) write_file(options.hits, hits_bytes(measurements.front().hits));
-    if (!options.json.empty())
-        write_file(options.json, json_text(options, scene, degenerate, measurements));
-    return static_cast<int>(wrong ? ExitCode::wrong_answer : ExitCode::ok);
+    if (!options.hits.empty() && measurements.front().stands())
+        write_file(options.hits, hits_bytes(measurements.front().hits));
+    const std::string json =
+        json_text(options, scene, degenerate, measurements, reference, checked);
+    if (options.json_to_stdout())
+        write_to(stdout, json);
+    else if (!options.json.empty())
+        write_file(options.json, json);
+    const bool all_stand = std::all_of(measurements.begin(), measurements.end(),
+                                       [](const Measurement& m) { return m.stands(); });
+    const bool all_agree = std::all_of(checked.begin(), checked.end(),
+                                       [](const Checked& c) { return c.disagreements == 0; });
+    return static_cast<int>(all_stand && all_agree ? ExitCode::ok : ExitCode::wrong_answer);
 }
 
 }  // namespace space

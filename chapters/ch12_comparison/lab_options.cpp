@@ -1,12 +1,16 @@
 #include "chapters/ch12_comparison/lab_options.hpp"
 
 #include "common/program/error.hpp"
+#include "common/program/file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -17,18 +21,21 @@ constexpr int max_repeat = 10'000;
 
 constexpr const char* formats = R"(
 Files
-  --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is origin +
-           t direction with t in [tmin, tmax]; the direction need not have length 1. A ray with a
-           NaN, an infinite origin or direction, a direction of zero or tmin > tmax is a miss, and
-           the number of such rays is printed. A file that does not hold whole records, or none, is
-           an error.
-  --hits   one record a ray, little-endian: float32 t u v, uint32 triangle (from 0, in the order of
-           the mesh file). t is in units of the direction; the point is (1 - u - v) a + u b + v c.
-           A miss is t = infinity, u = v = 0, triangle 0xFFFFFFFF. With --query any a hit has no
-           triangle and no place: t = u = v = 0, triangle 0xFFFFFFFE. Needs exactly one structure.
-  --json   the table as JSON: version, machine, mesh, query, structures; null where a figure has no
-           meaning.
-Exit codes: 0, 1 where --check found a disagreement, 2 usage, 3 bad input, 4 cannot write.
+  --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is origin + t direction
+           with t in [tmin, tmax]; the direction need not have length 1. A ray with a NaN, an infinite origin
+           or direction, a direction of zero or tmin > tmax is a miss, and the number of such rays is printed.
+           A file that does not hold whole records, or none, is an error.
+  --hits   one record a ray, little-endian: float32 t u v, uint32 triangle (from 0, in the order of the mesh
+           file). t is in units of the direction; the point is (1 - u - v) a + u b + v c. A miss is t = infinity,
+           u = v = 0, triangle 0xFFFFFFFF. With --query any a hit has no triangle and no place: t = u = v = 0,
+           triangle 0xFFFFFFFE. Needs exactly one structure.
+  --json   the tables as JSON: version, machine, mesh, query, against, limits, structures; null where a figure has
+           no meaning. To '-' or /dev/stdout, what is printed otherwise goes to stderr.
+Ratios are times divided by the other structure's times: 2 takes twice as long.
+--check compares with naive tracing by the same test, bit for bit; by another test than filtered-exact a difference
+counts only where the naive answer is the exact one. Peers (Embree, CGAL) have tests of their own: their wrong answers
+are counted, and are no fault.
+Exit codes: 0, 1 where --check found a disagreement or a structure gave up, 2 usage, 3 bad input, 4 cannot write.
 Nothing is written before all is measured, and a file that cannot be written whole is not there.)";
 
 /// "a,b,c" -> "a", "b", "c"; empty entries stay.
@@ -40,17 +47,27 @@ std::vector<std::string> split(std::string_view text) {
     return parts;
 }
 
+/// As people write it: "10", "+10", " 0". @return nothing for what is no number; it may be infinite
+std::optional<float> number_in(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    float number = 0.0f;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc::result_out_of_range) return infinity;
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
 Camera parse_camera(const std::string& text) {
     const auto fault = [&](std::string_view what) {
         return usage_error(fmt::format("--camera {}: {}", text, what));
     };
     std::vector<float> numbers;
     for (const std::string& part : split(text)) {
-        float number = 0.0f;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(number))
-            throw fault(fmt::format("'{}' is not a finite number", part));
-        numbers.push_back(number);
+        const std::optional<float> number = number_in(part);
+        if (!number) throw fault(fmt::format("'{}' is not a number", part));
+        if (!std::isfinite(*number)) throw fault(fmt::format("'{}' is not finite", part));
+        numbers.push_back(*number);
     }
     if (numbers.size() != 7) throw fault("give seven numbers ex,ey,ez,tx,ty,tz,fov");
     Camera camera{.eye = {numbers[0], numbers[1], numbers[2]},
@@ -64,60 +81,120 @@ Camera parse_camera(const std::string& text) {
     return camera;
 }
 
-}  // namespace
+/// The same file, or the same place where there is none yet.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    return std::filesystem::equivalent(a, b, error) ||
+           std::filesystem::weakly_canonical(a, error) ==
+               std::filesystem::weakly_canonical(b, error);
+}
 
-LabOptions parse_lab_options(int argc, char** argv) {
-    LabOptions options;
-    std::string structures = "all", query = "closest";
-    std::optional<std::string> camera_numbers;
-    CLI::App app("Any structure of the book on your own mesh and rays.", "lab");
-    app.footer(formats);
-    auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF")
-                     ->type_name("FILE");
+void add_file_options(CLI::App& app, LabOptions& options) {
+    const auto named = [](const std::string& text) {
+        return text.empty() ? "give the name of a file" : std::string();
+    };
+    auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF");
     app.add_option("--scene", options.common.scene, "a scene by name")
         ->type_name("NAME[:SIZE]")
         ->excludes(mesh);
     auto* rays = app.add_option("--rays", options.rays,
                                 "trace these rays; default: through the camera's pixels");
+    auto* hits = app.add_option("--hits", options.hits, "write the answers to this file");
+    auto* json = app.add_option("--json", options.json,
+                                "write the measurements to this file; '-' is standard output");
+    for (CLI::Option* option : {mesh, rays, hits, json}) option->type_name("FILE")->check(named);
+}
+
+/// Which rays are traced, but for --rays. @return --camera's numbers, when it has been parsed
+std::shared_ptr<std::optional<std::string>> add_ray_options(CLI::App& app, LabOptions& options) {
+    const auto numbers = std::make_shared<std::optional<std::string>>();
     auto* camera =
-        app.add_option("--camera", camera_numbers,
+        app.add_option("--camera", *numbers,
                        "eye, target, vertical field of view in degrees; default: the scene's own");
     auto* diffuse = add_whole_number(
         app, "--diffuse", 1, max_rays, [&](std::uint64_t n) { options.diffuse = n; },
         "trace N rays that leave the camera rays' hits, cosine-distributed (by --seed)");
     add_common_options(app, options.common);
-    app.add_option("--structure", structures, "NAME[,NAME...], 'all' or 'list'")
+    camera->type_name("ex,ey,ez,tx,ty,tz,fov");
+    app.get_option("--rays")->excludes(camera)->excludes(diffuse)->excludes(
+        app.get_option("--size"));
+    return numbers;
+}
+
+void add_build_options(CLI::App& app, BuildOptions& build) {
+    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
+    add_whole_number(
+        app, "--build-threads", 1, max_threads,
+        [&](std::uint64_t n) { build.threads = static_cast<unsigned>(n); },
+        "for builders that use several; default: as --threads");
+    add_whole_number(
+        app, "--max-references", 1, any, [&](std::uint64_t n) { build.limits.references = n; },
+        "memory: a structure gives up beyond so many triangles or pieces of them in its leaves")
+        ->default_str(fmt::format("{}", build.limits.references));
+    add_whole_number(
+        app, "--max-placements", 1, any, [&](std::uint64_t n) { build.limits.placements = n; },
+        "time: a builder gives up after it has put a triangle or a piece somewhere so many times")
+        ->default_str(fmt::format("{}", build.limits.placements));
+}
+
+}  // namespace
+
+LabOptions parse_lab_options(int argc, char** argv) {
+    LabOptions options;
+    std::string structures = "default", query = "closest";
+    CLI::App app("Any structure of the book on your own mesh and rays.", "lab");
+    app.footer(formats);
+    add_file_options(app, options);
+    const auto camera_numbers = add_ray_options(app, options);
+    app.add_option("--structure", structures,
+                   "NAME[,NAME...]; 'default' (one of each chapter and peer), 'all' or 'list'")
         ->capture_default_str();
     app.add_option("--triangle-test", options.triangle_test,
-                   "NAME or 'list'; default: each structure's first");
+                   "NAME or 'list'; default: filtered-exact");
+    app.add_option("--against", options.against,
+                   "NAME: ratios of all times to this structure's, such as embree");
     app.add_option("--query", query, "the nearest hit, or whether there is any")
         ->check(CLI::IsMember({"closest", "any"}))
         ->capture_default_str();
-    add_whole_number(
-        app, "--build-threads", 1, max_threads,
-        [&](std::uint64_t n) { options.build_threads = static_cast<unsigned>(n); },
-        "for builders that use several; default: as --threads");
+    add_build_options(app, options.build);
     add_whole_number(
         app, "--repeat", 1, max_repeat,
         [&](std::uint64_t n) { options.repeat = static_cast<int>(n); },
         "timed runs of each build and trace, in turn; their medians count")
         ->default_str(fmt::format("{}", options.repeat));
-    app.add_option("--hits", options.hits, "write the answers to this file")->type_name("FILE");
-    app.add_option("--json", options.json, "write the measurements to this file")
-        ->type_name("FILE");
     app.add_flag("--check", options.check, "compare the answers with naive tracing");
-    rays->type_name("FILE")->excludes(camera)->excludes(diffuse)->excludes(
-        app.get_option("--size"));
-    camera->type_name("ex,ey,ez,tx,ty,tz,fov");
     parse_command_line(app, argc, argv);
 
     options.structures = split(structures);
     options.query = query == "any" ? Query::any : Query::closest;
-    if (camera_numbers) options.camera = parse_camera(*camera_numbers);
+    if (*camera_numbers) options.camera = parse_camera(**camera_numbers);
     if (options.common.threads == 0)
         options.common.threads = std::max(1u, std::thread::hardware_concurrency());
-    if (options.build_threads == 0) options.build_threads = options.common.threads;
+    if (options.build.threads == 0) options.build.threads = options.common.threads;
     return options;
+}
+
+void check_outputs(const LabOptions& options) {
+    const std::string& scene = options.common.scene;  // it may be a file, or NAME:FILE
+    const std::filesystem::path inputs[] = {options.mesh, options.rays, scene,
+                                            scene.substr(scene.find(':') + 1)};
+    if (options.hits == "-") throw usage_error("--hits -: it needs a file");
+    if (!options.hits.empty() && !options.json.empty() && same_file(options.hits, options.json))
+        throw usage_error(
+            fmt::format("--hits and --json are the same file, {}", options.json.string()));
+    const auto check = [&](std::string_view option, const std::filesystem::path& file) {
+        for (const std::filesystem::path& input : inputs)
+            if (!input.empty() && same_file(file, input))
+                throw usage_error(fmt::format("{} {}: this is an input", option, file.string()));
+        std::error_code error;
+        const std::filesystem::path directory = file.parent_path();
+        if (!directory.empty() && !std::filesystem::exists(directory, error))
+            throw output_error(fmt::format("cannot write {}: there is no directory {}",
+                                           file.string(), directory.string()));
+        check_writable(file);
+    };
+    if (!options.hits.empty()) check("--hits", options.hits);
+    if (!options.json.empty() && !options.json_to_stdout()) check("--json", options.json);
 }
 
 }  // namespace space

@@ -22,13 +22,16 @@ struct LabOptions {
     std::filesystem::path rays;
     std::optional<Camera> camera;
     std::size_t diffuse = 0;
-    std::vector<std::string> structures;  ///< names, "all" or "list"; at least one
-    std::string triangle_test;            ///< a name, "list", or empty: each structure's default
+    std::vector<std::string> structures;  ///< names, "default", "all" or "list"; at least one
+    std::string triangle_test;            ///< a name, "list", or empty: each structure's first
+    std::string against;                  ///< the structure that ratios refer to; empty for none
     Query query = Query::closest;
-    unsigned build_threads = 0;
+    BuildOptions build{.threads = 0};
     int repeat = 3;
     bool check = false;
     std::filesystem::path hits, json;
+
+    bool json_to_stdout() const { return json == "-" || json == "/dev/stdout"; }
 };
 
 /// As on the command line.
@@ -38,5 +41,9 @@ constexpr std::string_view query_name(Query query) {
 
 /// --help prints and exits 0. @throws Error (usage) with one line that says what is wrong
 LabOptions parse_lab_options(int argc, char** argv);
+
+/// To be asked before long work. @throws Error (usage) for an output that is also an input or
+/// another output, (bad_output) for one that cannot be written
+void check_outputs(const LabOptions& options);
 
 }  // namespace space

@@ -5,6 +5,8 @@
 #include "common/accelerator.hpp"
 #include "common/camera.hpp"
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -32,7 +34,11 @@ struct HitRecord {
     }
 
     bool is_hit() const { return triangle != no_triangle; }
-    bool operator==(const HitRecord&) const = default;
+    /// The same bits: NaN is NaN.
+    bool operator==(const HitRecord& other) const {
+        using Words = std::array<std::uint32_t, 4>;
+        return std::bit_cast<Words>(*this) == std::bit_cast<Words>(other);
+    }
 };
 
 /// More rays than this (3 GB with their hits) are refused.

@@ -25,11 +25,12 @@ std::vector<Structure> joined(std::vector<Home> homes) {
 std::vector<Structure> ch01_structures();
 std::vector<Structure> ch03_structures();
 
-std::vector<Structure> structures() {
-    return joined({
+const std::vector<Structure>& structures() {
+    static const std::vector<Structure> all = joined({
         {"chapter 1", ch01_structures()},
         {"chapter 3", ch03_structures()},
     });
+    return all;
 }
 // [structures]
 

@@ -80,7 +80,7 @@ struct Home {
 std::vector<Structure> joined(std::vector<Home> homes);
 
 /// Every structure of the book, in its order; the first is naive tracing, which --check trusts.
-std::vector<Structure> structures();
+const std::vector<Structure>& structures();
 
 // [batch]
 /// Answers the query for each ray of the batch; the answers do not depend on the number of threads.

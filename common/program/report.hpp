@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace space {
@@ -28,5 +29,7 @@ class Table {
 void print_heading(const std::string& text);
 /// 1234567 -> "1,234,567".
 std::string with_commas(std::uint64_t number);
+/// "1 ray", "1,234 rays".
+std::string counted(std::uint64_t number, std::string_view noun);
 
 }  // namespace space

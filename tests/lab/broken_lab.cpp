@@ -3,6 +3,9 @@
 #include "chapters/ch12_comparison/lab.hpp"
 #include "common/program/error.hpp"
 
+#include <new>
+#include <stdexcept>
+
 namespace {
 
 /// Triangle 7 is lost.
@@ -26,6 +29,18 @@ struct DropsATriangle {
     space::TreeShape shape() const { return naive.shape(); }
 };
 
+space::BuiltStructure no_memory(std::span<const space::Triangle>, const space::BuildOptions&) {
+    throw std::bad_alloc();
+}
+
+/// Stands, but throws at the first ray.
+space::BuiltStructure no_trace(std::span<const space::Triangle> triangles,
+                               const space::BuildOptions& options) {
+    space::BuiltStructure built = space::build_structure<space::Naive<>>(triangles, options);
+    built.trace = [](const space::Batch&) { throw std::runtime_error("no way through"); };
+    return built;
+}
+
 int lab(int argc, char** argv) {
     using space::MollerTrumbore, space::Naive, space::build_structure;
     const std::vector<space::Structure> structures{
@@ -33,6 +48,8 @@ int lab(int argc, char** argv) {
          "the trusted one",
          {{"moller-trumbore", "", build_structure<Naive<MollerTrumbore>>}}},
         {"broken", "loses triangle 7", {{"moller-trumbore", "", build_structure<DropsATriangle>}}},
+        {"no-memory", "", {{"moller-trumbore", "", no_memory}}},
+        {"no-trace", "", {{"moller-trumbore", "", no_trace}}},
     };
     return space::run_lab(structures, argc, argv);
 }

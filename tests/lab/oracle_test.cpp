@@ -46,9 +46,12 @@ void require_agreement(const std::string& mesh_option, std::span<const Triangle>
     std::vector<HitRecord> trusted;
     for (const Structure& structure : structures()) {
         if (!variants && structure.name.find('-') != structure.name.npos) continue;
-        const Ended ended = run(fmt::format(
-            "{} lab {} --rays {} --structure {} --repeat 1 --hits {}", LAB_PROGRAM, mesh_option,
-            (bench / "rays").string(), structure.name, (bench / "hits").string()));
+        const Ended ended = run(Command{.words = {LAB_PROGRAM, "lab"}}
+                                    .with(mesh_option)
+                                    .with("--rays", bench / "rays")
+                                    .with("--hits", bench / "hits")
+                                    .with("--repeat 1 --structure")
+                                    .with_word(std::string(structure.name)));
         INFO(ended.err);
         REQUIRE(ended.code == 0);
         const std::vector<HitRecord> hits = read_hits(bench / "hits");
@@ -83,6 +86,7 @@ void require_agreement(const std::string& mesh_option, std::span<const Triangle>
         CHECK(tally.wrong() == 0);
         CHECK(tally.examined() == count);
         CHECK(tally.skipped == 0);
+        CHECK(tally.rounded_t == 0);     // the reference test gives the float nearest to t
         CHECK(hit_count > count / 100);  // the rays are worth asking
     }
 }
