@@ -21,21 +21,24 @@ constexpr int max_repeat = 10'000;
 
 constexpr const char* formats = R"(
 Files
-  --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is origin + t direction
-           with t in [tmin, tmax]; the direction need not have length 1. A ray with a NaN, an infinite origin
-           or direction, a direction of zero or tmin > tmax is a miss, and the number of such rays is printed.
-           A file that does not hold whole records, or none, is an error.
-  --hits   one record a ray, little-endian: float32 t u v, uint32 triangle (from 0, in the order of the mesh
-           file). t is in units of the direction; the point is (1 - u - v) a + u b + v c. A miss is t = infinity,
-           u = v = 0, triangle 0xFFFFFFFF. With --query any a hit has no triangle and no place: t = u = v = 0,
-           triangle 0xFFFFFFFE. Needs exactly one structure.
-  --json   the tables as JSON: version, machine, mesh, query, against, limits, structures; null where a figure has
-           no meaning. To '-' or /dev/stdout, what is printed otherwise goes to stderr.
+  --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is
+           origin + t direction with t in [tmin, tmax]; the direction need not have length 1. A ray
+           with a NaN, an infinite origin or direction, a direction of zero or tmin > tmax is a
+           miss, and the number of such rays is printed. A file that does not hold whole records,
+           or none, is an error.
+  --hits   one record a ray, little-endian: float32 t u v, uint32 triangle (from 0, in the order of
+           the mesh file). t is in units of the direction; the point is (1 - u - v) a + u b + v c.
+           A miss is t = infinity, u = v = 0, triangle 0xFFFFFFFF. With --query any a hit has no
+           triangle and no place: t = u = v = 0, triangle 0xFFFFFFFE. Needs exactly one structure.
+  --json   the tables as JSON: version, machine, mesh, query, against, limits, structures; null
+           where a figure has no meaning. With '-' or /dev/stdout what is printed otherwise goes to
+           standard error.
 Ratios are times divided by the other structure's times: 2 takes twice as long.
---check compares with naive tracing by the same test, bit for bit; by another test than filtered-exact a difference
-counts only where the naive answer is the exact one. Peers (Embree, CGAL) have tests of their own: their wrong answers
-are counted, and are no fault.
-Exit codes: 0, 1 where --check found a disagreement or a structure gave up, 2 usage, 3 bad input, 4 cannot write.
+--check compares with naive tracing by the same test, bit for bit; by another test than
+filtered-exact a difference counts only where the naive answer is the exact one. Peers (Embree,
+CGAL) have tests of their own: their wrong answers are counted, and are no fault.
+Exit codes: 0, 1 where --check found a disagreement or a structure gave up, 2 usage, 3 bad input,
+4 cannot write.
 Nothing is written before all is measured, and a file that cannot be written whole is not there.)";
 
 /// "a,b,c" -> "a", "b", "c"; empty entries stay.

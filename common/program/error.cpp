@@ -9,7 +9,6 @@
 #include <system_error>
 
 namespace space {
-
 namespace {
 
 /// What a body returned, unless not all that it printed could be written.

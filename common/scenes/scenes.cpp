@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace space {
 namespace {
@@ -140,6 +141,18 @@ std::uint32_t parse_size(const SceneRecipe& recipe, std::string_view text) {
     return size;
 }
 
+/// The distance nearest to the wanted one at which an eye can stand: floats end at 3.4e38, and far
+/// from the origin they are so coarse that an eye beside a small mesh would be rounded into it.
+double possible_distance(const Double3& target, const Double3& from, double wanted) {
+    double nearest = 0.0, farthest = infinity;
+    for (int axis = 0; axis < 3; ++axis) {
+        nearest = std::max(nearest, 16.0 * 0x1p-23 * std::abs(target[axis]));
+        farthest = std::min(
+            farthest, (double{std::numeric_limits<float>::max()} - target[axis]) / from[axis]);
+    }
+    return std::min(std::max(wanted, nearest), farthest);
+}
+
 Scene load_scene(const std::string& file) {
     Scene scene;
     scene.name = std::filesystem::path(file).stem().string();
@@ -189,25 +202,36 @@ Scene make_scene(std::string_view spec, std::uint64_t seed, bool small) {
 void frame_mesh(Scene& scene) {
     const Aabb box = bounds(scene.mesh);
     const Double3 target = 0.5 * (Double3(box.min) + Double3(box.max));
-    scene.camera = {.target = Point3(target), .field_of_view = 32.0f};
     const Double3 from = glm::normalize(Double3{0.35, 0.3, 1.0});
-    // As near as the picture's frame allows, with a margin, if the picture is at least as wide as
-    // high.
-    scene.camera.eye = Point3(target + from);
+    scene.camera = {.target = Point3(target), .field_of_view = 32.0f};
     const CameraFrame frame(
         {.eye = Point3(from), .target = Point3(0.0f), .field_of_view = scene.camera.field_of_view});
     constexpr double filled = 0.9;  // of the picture's height or width
-    double distance = 0.0;
+    const auto off_axis = [&](const Double3& p) {
+        return std::max(std::abs(glm::dot(p, frame.up)), std::abs(glm::dot(p, frame.right)));
+    };
+    // As near as the picture's frame allows, with a margin, if the picture is at least as wide as
+    // high.
+    double wanted = 0.0;
     for (const Point3& vertex : scene.mesh.vertices) {
         const Double3 p = Double3(vertex) - target;
-        const double off_axis =
-            std::max(std::abs(glm::dot(p, frame.up)), std::abs(glm::dot(p, frame.right)));
-        distance =
-            std::max(distance, glm::dot(p, frame.back) + off_axis / (filled * frame.tan_half_fov));
+        wanted =
+            std::max(wanted, glm::dot(p, frame.back) + off_axis(p) / (filled * frame.tan_half_fov));
     }
-    if (distance == 0.0) distance = 1.0;  // a single point
-    const Double3 eye = target + distance * from;
-    scene.camera.eye = Point3(eye);
+    if (wanted == 0.0) wanted = 1.0;  // a single point
+    const double distance = possible_distance(target, from, wanted);
+    if (distance != wanted) {  // then another field of view shows the mesh
+        double tan_half_fov = 0.0;
+        for (const Point3& vertex : scene.mesh.vertices) {
+            const Double3 p = Double3(vertex) - target;
+            const double depth = distance - glm::dot(p, frame.back);
+            tan_half_fov =
+                std::max(tan_half_fov, depth > 0.0 ? off_axis(p) / (filled * depth) : infinity);
+        }
+        const double degrees = 2.0 * std::atan(tan_half_fov) * 180.0 / 3.14159265358979323846;
+        scene.camera.field_of_view = static_cast<float>(std::clamp(degrees, 1e-4, 120.0));
+    }
+    scene.camera.eye = Point3(target + distance * from);
     scene.background = srgb(0xDCE6EE);
     add_light(scene, target + distance * Double3{-0.8, 1.1, 1.0}, target,
               Color{0.95f, 0.88f, 0.78f});

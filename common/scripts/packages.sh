@@ -114,7 +114,7 @@ doctor() {
             [[ $part == build && $package != ccache ]] && wrong=1
         fi
         printf '%-20s %-8s %-28s %s\n' "$package" "$part" "${version:-there, not from a package}" "$purpose"
-    done < <(package_lines build run test bench extra)
+    done < <(package_lines build run test bench lab extra)
     echo
     echo 'build: required; the others: what needs them is left out where they are missing.'
     ((wrong == 0)) || die 3 "something required is missing: ./book run installs it"

@@ -683,3 +683,28 @@ TEST_CASE("numbers of a camera may have a plus sign, and a camera that sees noth
     CHECK(blind.out.find("hint    no camera ray hits the mesh, which lies between (0, 0, 0) and "
                          "(1, 1, 0)") != std::string::npos);
 }
+
+TEST_CASE("the default camera sees meshes at the ends of float and far from the origin") {
+    const Workbench bench;
+    struct Square {
+        double half_side;
+        Double3 centre;
+    };
+    for (const auto& [half, centre] :
+         {Square{1.0, {0, 0, 0}}, Square{1e38, {0, 0, 0}}, Square{3.4e38, {0, 0, 0}},
+          Square{1e37, {0, 0, 3.3e38}}, Square{0.005, {0, 0, 1e8}}, Square{0.005, {0, 0, -1e8}},
+          Square{1e-5, {0, 0, 1}}, Square{1.0, {4e6, 5e5, 0}}}) {
+        TriangleMesh square;
+        square.faces = {{0, 1, 2}, {0, 2, 3}};
+        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+            square.vertices.push_back(Point3(centre + half * Double3(x, y, 0)));
+        write_ply(bench / "square.ply", square);
+        const Ended ended = run(lab.with("--mesh", bench / "square.ply")
+                                    .with("--structure naive --repeat 1 --size 16x12 --json -"));
+        INFO(half << " at " << centre.z << ": " << ended.err);
+        REQUIRE(ended.code == 0);
+        CHECK(ended.err.find("not valid") == std::string::npos);
+        const auto json = nlohmann::json::parse(ended.out);
+        CHECK(json["structures"][0]["hits"] >= 16 * 12 / 5);
+    }
+}

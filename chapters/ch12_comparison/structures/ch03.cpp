@@ -22,6 +22,7 @@ Structure offer_bsp(std::string_view name, std::string_view about, SplitterChoic
 
 }  // namespace
 
+// [ch03_structures]
 std::vector<Structure> ch03_structures() {
     return {
         offer_bsp("bsp", "BSP tree; planes weighed by balance and cuts (chapter 3)",
@@ -37,5 +38,6 @@ std::vector<Structure> ch03_structures() {
                   SplitterChoice::free),
     };
 }
+// [ch03_structures]
 
 }  // namespace space
