@@ -5,6 +5,7 @@
 #include "common/geometry.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace space {
 
@@ -25,7 +26,7 @@ struct CameraFrame {
 
     explicit CameraFrame(const Camera& camera)
         : back(glm::normalize(Double3(camera.eye) - Double3(camera.target))),
-          tan_half_fov(std::tan(camera.field_of_view * 0.5 * 3.14159265358979323846 / 180.0)) {
+          tan_half_fov(std::tan(camera.field_of_view * 0.5 * std::numbers::pi / 180.0)) {
         right = glm::normalize(glm::cross(Double3(camera.up), back));
         up = glm::cross(back, right);
     }

@@ -73,7 +73,7 @@ inline double log_log_slope(std::span<const double> x, std::span<const double> y
 
 /// Keeps the compiler from dropping a computation whose result nobody reads.
 template <class T>
-void keep(const T& value) {
+void do_not_optimize(const T& value) {
     asm volatile("" : : "r,m"(value) : "memory");
 }
 

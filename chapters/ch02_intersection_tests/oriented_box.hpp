@@ -14,7 +14,7 @@ namespace space {
 
 /// The points centre + axes p for p in [-half, half]; the axes are orthonormal columns.
 struct OrientedBox {
-    Point3 center{0.0f};
+    Point3 centre{0.0f};
     glm::mat3 axes{1.0f};
     Vector3 half{0.0f};
 };
@@ -22,7 +22,7 @@ struct OrientedBox {
 /// The transpose of a rotation is its inverse (Optim25, section 3.1).
 inline Ray local_ray(const Ray& ray, const OrientedBox& box) {
     const glm::mat3 inverse = glm::transpose(box.axes);
-    return {inverse * (ray.origin - box.center), inverse * ray.direction, ray.tmin, ray.tmax};
+    return {inverse * (ray.origin - box.centre), inverse * ray.direction, ray.tmin, ray.tmax};
 }
 
 inline std::optional<Interval> intersect(const Ray& ray, const OrientedBox& box) {
@@ -33,7 +33,7 @@ inline std::optional<Interval> intersect(const Ray& ray, const OrientedBox& box)
 inline Aabb bounds(const OrientedBox& box) {
     const Vector3 reach = glm::abs(box.axes[0]) * box.half.x + glm::abs(box.axes[1]) * box.half.y +
                           glm::abs(box.axes[2]) * box.half.z;
-    return {box.center - reach, box.center + reach};
+    return {box.centre - reach, box.centre + reach};
 }
 
 }  // namespace space

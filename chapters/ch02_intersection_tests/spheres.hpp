@@ -12,7 +12,7 @@ namespace space {
 
 /// The points at the distance radius from the centre.
 struct Sphere {
-    Point3 center{0.0f};
+    Point3 centre{0.0f};
     float radius = 1.0f;
 };
 
@@ -20,9 +20,9 @@ struct Sphere {
 /// so a sphere behind the origin is hit too.
 struct SphereAsPrinted {
     static bool hits(const Ray& ray, const Sphere& sphere) {
-        const Vector3 to_center = sphere.center - ray.origin;
-        const float along = glm::dot(to_center, ray.direction) / glm::length(ray.direction);
-        return std::sqrt(glm::dot(to_center, to_center) - along * along) < sphere.radius;
+        const Vector3 to_centre = sphere.centre - ray.origin;
+        const float along = glm::dot(to_centre, ray.direction) / glm::length(ray.direction);
+        return std::sqrt(glm::dot(to_centre, to_centre) - along * along) < sphere.radius;
     }
 };
 
@@ -32,7 +32,7 @@ struct SphereAsPrinted {
 struct SphereSchoolbook {
     // [sphere_schoolbook]
     static std::optional<float> intersect(const Ray& ray, const Sphere& sphere) {
-        const Vector3 f = ray.origin - sphere.center;
+        const Vector3 f = ray.origin - sphere.centre;
         const float a = glm::dot(ray.direction, ray.direction), b = glm::dot(f, ray.direction);
         const float c = glm::dot(f, f) - sphere.radius * sphere.radius;
         const float discriminant = b * b - a * c;
@@ -51,7 +51,7 @@ struct SphereSchoolbook {
 struct SphereStable {
     // [sphere_stable]
     static std::optional<float> intersect(const Ray& ray, const Sphere& sphere) {
-        const Vector3 f = ray.origin - sphere.center;
+        const Vector3 f = ray.origin - sphere.centre;
         const float a = glm::dot(ray.direction, ray.direction), b = -glm::dot(f, ray.direction);
         const Vector3 nearest = f + (b / a) * ray.direction;
         const float r2 = sphere.radius * sphere.radius;
@@ -70,7 +70,7 @@ struct SphereStable {
 /// The schoolbook's formula in double: nothing cancels that floats could tell apart, nearly always.
 struct SphereDouble {
     static std::optional<float> intersect(const Ray& ray, const Sphere& sphere) {
-        const Double3 d{ray.direction}, f = Double3(ray.origin) - Double3(sphere.center);
+        const Double3 d{ray.direction}, f = Double3(ray.origin) - Double3(sphere.centre);
         const double a = glm::dot(d, d), b = glm::dot(f, d);
         const double c = glm::dot(f, f) - double{sphere.radius} * sphere.radius;
         const double discriminant = b * b - a * c;

@@ -40,14 +40,14 @@ void make_sphereflake(Scene& scene, std::uint32_t depth, std::uint64_t) {
     const Color colors[] = {srgb(0xE9C46A), srgb(0xE08E45), srgb(0xC8553D), srgb(0x8C4A5E),
                             srgb(0x4F5D8A), srgb(0x3E8E8C), srgb(0xB5C99A)};
     constexpr std::uint32_t frequencies[] = {8, 4, 2, 2, 2, 2, 2};  // of the spheres of each level
-    const auto grow = [&](const auto& self, const Double3& center, double radius,
+    const auto grow = [&](const auto& self, const Double3& centre, double radius,
                           const Double3& direction, std::uint32_t level) -> void {
-        add(scene, ball(center, radius, frequencies[level]), colors[level]);
+        add(scene, ball(centre, radius, frequencies[level]), colors[level]);
         if (level == depth) return;
         const glm::dmat3 turn = from_z_to(direction);
         for (const Double3& d : directions) {
             const Double3 outwards = turn * d;
-            self(self, center + outwards * (radius * (1.0 + 1.0 / 3.0)), radius / 3.0, outwards,
+            self(self, centre + outwards * (radius * (1.0 + 1.0 / 3.0)), radius / 3.0, outwards,
                  level + 1);
         }
     };
@@ -69,16 +69,16 @@ void make_sphereflake(Scene& scene, std::uint32_t depth, std::uint64_t) {
 void make_tetra(Scene& scene, std::uint32_t depth, std::uint64_t) {
     const Double3 corners[4] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const Color colors[4] = {srgb(0xC8553D), srgb(0xE0A458), srgb(0x3D7C88), srgb(0xE7DBC3)};
-    const auto divide = [&](const auto& self, const Double3& center, double half,
+    const auto divide = [&](const auto& self, const Double3& centre, double half,
                             std::uint32_t level, std::uint32_t quarter) -> void {
         if (level < depth) {
             for (std::uint32_t i = 0; i < 4; ++i)
-                self(self, center + 0.5 * half * corners[i], 0.5 * half, level + 1,
+                self(self, centre + 0.5 * half * corners[i], 0.5 * half, level + 1,
                      level == 1 ? i : quarter);
             return;
         }
         TriangleMesh mesh;
-        for (const Double3& corner : corners) mesh.vertices.emplace_back(center + half * corner);
+        for (const Double3& corner : corners) mesh.vertices.emplace_back(centre + half * corner);
         mesh.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
         add(scene, mesh, colors[quarter]);
     };
@@ -223,14 +223,14 @@ void make_lattice(Scene& scene, std::uint32_t cells, std::uint64_t) {
     for (std::uint32_t z = 0; z <= cells; ++z)
         for (std::uint32_t y = 0; y <= cells; ++y)
             for (std::uint32_t x = 0; x <= cells; ++x) {
-                const Double3 center = place(x, y, z);
-                add(scene, ball(center, ball_radius, 3), srgb(0xE5D3A8));
+                const Double3 centre = place(x, y, z);
+                add(scene, ball(centre, ball_radius, 3), srgb(0xE5D3A8));
                 const Double3 ends[3] = {place(x + 1, y, z), place(x, y + 1, z),
                                          place(x, y, z + 1)};
                 const std::uint32_t index[3] = {x, y, z};
                 for (int axis = 0; axis < 3; ++axis)
                     if (index[axis] < cells)
-                        add(scene, tube({center, rod_radius}, {ends[axis], rod_radius}, 8, false),
+                        add(scene, tube({centre, rod_radius}, {ends[axis], rod_radius}, 8, false),
                             rods[axis]);
             }
     scene.camera = {.eye = {-0.62f, -0.85f, 1.5f},
@@ -251,9 +251,9 @@ void make_shells(Scene& scene, std::uint32_t depth, std::uint64_t) {
     const TriangleMesh unit = icosphere(2);
     for (int i = -2 * steps / 3; i <= steps / 3; ++i) {
         const double angle = 18.0 * std::numbers::pi * i / steps, r = std::exp(0.15 * angle);
-        const Double3 center{r * std::sin(angle), r * std::cos(angle), -2.0 * r};
+        const Double3 centre{r * std::sin(angle), r * std::cos(angle), -2.0 * r};
         const int stripe = (i + steps) * 90 / steps;  // ten stripes a turn
-        add(scene, transformed(unit, glm::dmat3(r), center), colors[stripe % 4]);
+        add(scene, transformed(unit, glm::dmat3(r), centre), colors[stripe % 4]);
     }
     scene.camera = {.eye = {-6, -60, 35},
                     .target = {-1.5f, 0.0f, -25.0f},

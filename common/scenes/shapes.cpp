@@ -97,8 +97,8 @@ TriangleMesh icosphere(std::uint32_t frequency) {
     return mesh;
 }
 
-TriangleMesh ball(const Double3& center, double radius, std::uint32_t frequency) {
-    return transformed(icosphere(frequency), glm::dmat3(radius), center);
+TriangleMesh ball(const Double3& centre, double radius, std::uint32_t frequency) {
+    return transformed(icosphere(frequency), glm::dmat3(radius), centre);
 }
 
 TriangleMesh box(const Double3& min, const Double3& max) {
@@ -153,8 +153,8 @@ TriangleMesh tube(std::span<const TubePoint> path, std::uint32_t sides, bool cap
     TriangleMesh mesh;
     Double3 u{0.0};
     for (std::size_t k = 0; k < path.size(); ++k) {
-        const Double3 along = glm::normalize(path[std::min(k + 1, path.size() - 1)].center -
-                                             path[k > 0 ? k - 1 : 0].center);
+        const Double3 along = glm::normalize(path[std::min(k + 1, path.size() - 1)].centre -
+                                             path[k > 0 ? k - 1 : 0].centre);
         if (k == 0) {
             const Double3 away = std::abs(along.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0};
             u = glm::normalize(glm::cross(along, away));
@@ -165,7 +165,7 @@ TriangleMesh tube(std::span<const TubePoint> path, std::uint32_t sides, bool cap
         const std::uint32_t ring = count(mesh);
         for (std::uint32_t i = 0; i < sides; ++i) {
             const glm::dvec2 direction = on_circle(i, sides);
-            mesh.vertices.emplace_back(path[k].center +
+            mesh.vertices.emplace_back(path[k].centre +
                                        path[k].radius * (direction.x * u + direction.y * v));
         }
         for (std::uint32_t i = 0; k > 0 && i < sides; ++i) {

@@ -16,7 +16,7 @@ namespace space {
 /// outwards: 20 f^2 triangles, 10 f^2 + 2 vertices, closed.
 TriangleMesh icosphere(std::uint32_t frequency);
 /// The same, of any radius and place.
-TriangleMesh ball(const Double3& center, double radius, std::uint32_t frequency);
+TriangleMesh ball(const Double3& centre, double radius, std::uint32_t frequency);
 
 /// 12 triangles, closed.
 TriangleMesh box(const Double3& min, const Double3& max);
@@ -31,7 +31,7 @@ TriangleMesh lathe(std::span<const glm::dvec2> profile, std::uint32_t segments);
 /// Rings of `sides` vertices about the points of a path; ends with caps if `capped`. At least two
 /// points.
 struct TubePoint {
-    Double3 center;
+    Double3 centre;
     double radius;
 };
 TriangleMesh tube(std::span<const TubePoint> path, std::uint32_t sides, bool capped = true);

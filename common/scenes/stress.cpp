@@ -52,11 +52,11 @@ void add_triangle(Scene& scene, const Double3& a, const Double3& b, const Double
 
 /// An equilateral triangle of the given circumradius in any orientation.
 void add_random_triangle(Scene& scene, double radius, Pcg32& random) {
-    const Double3 center = in_unit_cube(random);
+    const Double3 centre = in_unit_cube(random);
     const auto [u, v] = random_orientation(random);
     const double half = 0.5 * radius, wide = std::sqrt(0.75) * radius;
-    add_triangle(scene, center + radius * u, center - half * u + wide * v,
-                 center - half * u - wide * v, any_color(random));
+    add_triangle(scene, centre + radius * u, centre - half * u + wide * v,
+                 centre - half * u - wide * v, any_color(random));
 }
 
 void look_at_unit_cube(Scene& scene) {
@@ -97,10 +97,10 @@ void make_slivers(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
     const Color straws[] = {srgb(0xE5C98B), srgb(0xD4AC62), srgb(0xC48F4A),
                             srgb(0xEFDFB4), srgb(0xA9743C), srgb(0x6E8B5B)};
     for (std::uint32_t i = 0; i < triangles; ++i) {
-        const Double3 center = 0.5 * (in_unit_cube(random) + Double3{0.5});
+        const Double3 centre = 0.5 * (in_unit_cube(random) + Double3{0.5});
         const auto [along, across] = random_orientation(random);
-        add_triangle(scene, center + 0.5 * along, center - 0.5 * along + half_width * across,
-                     center - 0.5 * along - half_width * across, straws[random.below(6)]);
+        add_triangle(scene, centre + 0.5 * along, centre - 0.5 * along + half_width * across,
+                     centre - 0.5 * along - half_width * across, straws[random.below(6)]);
     }
     look_at_unit_cube(scene);
 }

@@ -6,6 +6,8 @@
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 
+#include <numbers>
+
 using namespace space;
 
 namespace {
@@ -117,7 +119,7 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
         std::vector<Point3> rim;
         for (int i = 0; i < corners; ++i) {
             const double angle =
-                2 * 3.14159265358979323846 * (i + 0.5 * random.uniform_double()) / corners;
+                2.0 * std::numbers::pi * (i + 0.5 * random.uniform_double()) / corners;
             const double depth_of_corner = 1.0 + random.uniform_double();
             rim.emplace_back(3 * std::cos(angle) * depth_of_corner,
                              3 * std::sin(angle) * depth_of_corner, -depth_of_corner);

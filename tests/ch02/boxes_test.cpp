@@ -486,7 +486,7 @@ TEST_CASE(
         const RayAndBox pair = make_box_pair(random);
         // Whole numbers: centre and half size are exact.
         const Vector3 half(1.0f + static_cast<float>(random.below(4)), 2.0f, 3.0f);
-        const Point3 center(static_cast<float>(random.below(9)), -4.0f, 1.0f);
+        const Point3 centre(static_cast<float>(random.below(9)), -4.0f, 1.0f);
         const Ray ray{.origin = Point3(glm::ivec3(8.0f * pair.ray.origin)),
                       .direction = Vector3(glm::ivec3(8.0f * pair.ray.direction))};
         if (!is_valid(ray)) continue;
@@ -499,9 +499,9 @@ TEST_CASE(
             return one.has_value() == other.has_value() &&
                    (!one || (one->enter == other->enter && one->leave == other->leave));
         };
-        REQUIRE(same({center, glm::mat3(1.0f), half}, {center - half, center + half}));
-        REQUIRE(same({center, turn, half}, {center - turned, center + turned}));
-        REQUIRE(bounds(OrientedBox{center, turn, half}) == Aabb{center - turned, center + turned});
+        REQUIRE(same({centre, glm::mat3(1.0f), half}, {centre - half, centre + half}));
+        REQUIRE(same({centre, turn, half}, {centre - turned, centre + turned}));
+        REQUIRE(bounds(OrientedBox{centre, turn, half}) == Aabb{centre - turned, centre + turned});
     }
     CHECK(hits > 100);
 }
@@ -518,9 +518,9 @@ TEST_CASE(
             random_vector(random),
             glm::mat3(glm::mat3_cast(glm::dquat(0.0, first) * glm::dquat(0.0, second))),
             0.5f + 0.25f * random_vector(random)};
-        const auto world = [&](const Vector3& local) { return box.center + box.axes * local; };
+        const auto world = [&](const Vector3& local) { return box.centre + box.axes * local; };
         const Point3 inside = world((1.0f - clear) * box.half * random_vector(random));
-        const Point3 origin = box.center + 5.0f * Vector3(random_direction(random));
+        const Point3 origin = box.centre + 5.0f * Vector3(random_direction(random));
         const auto hit = intersect(Ray{origin, inside - origin}, box);
         REQUIRE(hit);
         REQUIRE(hit->enter < 1.0f);  // t is that of the world: the inside point is at t = 1

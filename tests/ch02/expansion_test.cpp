@@ -119,12 +119,12 @@ TEST_CASE("the exact sphere's quadratic is that of rational numbers, and so is i
         if (i % 4 == 0)
             ray = {.origin = {1.0f, 0.0f, 5.0f},
                    .direction = {0.0f, random.uniform() < 0.5f ? 0.0f : 0x1p-60f, -3.0f}},
-            sphere.center = Point3(0.0f);
+            sphere.centre = Point3(0.0f);
         const ExactQuadratic q(ray, sphere);
         mpq_class a = 0, b = 0, c = -mpq_class(sphere.radius) * mpq_class(sphere.radius);
         for (int axis = 0; axis < 3; ++axis) {
             const mpq_class d(ray.direction[axis]),
-                f = mpq_class(ray.origin[axis]) - mpq_class(sphere.center[axis]);
+                f = mpq_class(ray.origin[axis]) - mpq_class(sphere.centre[axis]);
             a += d * d;
             b += f * d;
             c += f * f;

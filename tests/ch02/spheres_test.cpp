@@ -31,8 +31,8 @@ TEST_CASE("a sphere behind the origin is hit by the printed test and by none of 
     Pcg32 random(704);
     for (std::uint64_t i = 0; i < rays; ++i) {
         const Sphere sphere{random_vector(random), 1.0f};
-        const Double3 at = Double3(sphere.center) + 0.9 * random_direction(random);
-        const Point3 origin(Double3(sphere.center) + 3.0 * random_direction(random));
+        const Double3 at = Double3(sphere.centre) + 0.9 * random_direction(random);
+        const Point3 origin(Double3(sphere.centre) + 3.0 * random_direction(random));
         const Ray ray{origin, Point3(Double3(origin) - at)};  // straight away from a point inside
         REQUIRE(SphereAsPrinted::hits(ray, sphere));
         REQUIRE_FALSE(SphereSchoolbook::intersect(ray, sphere));

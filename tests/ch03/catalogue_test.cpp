@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 namespace space {
 namespace {
 
@@ -341,7 +343,7 @@ TEST_CASE(
     "it") {
     std::vector<glm::dvec2> profile;
     for (std::uint32_t i = 0; i <= rows; ++i) {
-        const double angle = 3.14159265358979323846 * i / rows;
+        const double angle = std::numbers::pi * i / rows;
         profile.emplace_back(i == 0 || i == rows ? 0.0 : std::sin(angle), -std::cos(angle));
     }
     const auto polygons = lathe(profile, 24).triangles();

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -92,8 +93,8 @@ inline std::vector<Triangle> touching() {
 /// A torus around the z axis: closed, not convex, vertices rounded to float.
 inline std::vector<Triangle> torus(int around, int across) {
     const auto at = [&](int i, int j) {
-        const double u = 6.283185307179586 * (i % around) / around,
-                     v = 6.283185307179586 * (j % across) / across;
+        const double u = 2.0 * std::numbers::pi * (i % around) / around,
+                     v = 2.0 * std::numbers::pi * (j % across) / across;
         return Point3(
             Double3((2 + std::cos(v)) * std::cos(u), (2 + std::cos(v)) * std::sin(u), std::sin(v)));
     };

@@ -2,6 +2,8 @@
 
 #include "tests/catch.hpp"
 
+#include <numbers>
+
 namespace space {
 namespace {
 
@@ -51,7 +53,7 @@ TEST_CASE("the field of view is the vertical angle between the rays of the upper
     const Double3 top(ray_at(camera, 5, 0, 10, 8).direction),
         bottom(ray_at(camera, 5, 8, 10, 8).direction);
     const double angle = std::acos(glm::dot(top, bottom) / glm::length(top) / glm::length(bottom));
-    CHECK(angle * 180.0 / 3.14159265358979323846 == Approx(40).epsilon(1e-6));
+    CHECK(angle * 180.0 / std::numbers::pi == Approx(40).epsilon(1e-6));
 }
 
 TEST_CASE("the same camera gives the same ray, bit for bit, from any frame made of it") {

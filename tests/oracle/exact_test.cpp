@@ -5,6 +5,7 @@
 #include "tests/oracle/integer_oracle.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace space {
 namespace {
@@ -159,7 +160,7 @@ TEST_CASE(
     const Point3 hub = exact({0.1f, 0.2f, 0.3f});
     std::vector<Triangle> fan;
     const auto rim = [&](int k) {
-        const double angle = k % 6 * 3.14159265358979323846 / 3;
+        const double angle = k % 6 * std::numbers::pi / 3;
         return hub + Point3(static_cast<float>(std::cos(angle)),
                             static_cast<float>(std::sin(angle)), 0.0f);
     };

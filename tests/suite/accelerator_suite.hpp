@@ -246,10 +246,10 @@ class Examination {
         const Fate fate = fate_in_child(
             [&] {
                 const A accelerator = build_(scene_->triangles);
-                keep(accelerator.shape().references);
+                do_not_optimize(accelerator.shape().references);
                 for (std::size_t i = 0; i < rays.size(); i += 1 + rays.size() / 500) {
-                    keep(closest_hit(accelerator, rays[i].ray).has_value());
-                    keep(any_hit(accelerator, rays[i].ray));
+                    do_not_optimize(closest_hit(accelerator, rays[i].ray).has_value());
+                    do_not_optimize(any_hit(accelerator, rays[i].ray));
                 }
             },
             options_.patience);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -258,7 +259,7 @@ inline std::vector<TestScene> adversarial_scenes() {
         const Point3 hub(0.1f, 0.2f, 0.3f);
         std::vector<Triangle> triangles;
         const auto rim = [&](int k) {
-            const double angle = 2.0 * 3.14159265358979323846 * (k % 24) / 24.0;
+            const double angle = 2.0 * std::numbers::pi * (k % 24) / 24.0;
             return Point3(static_cast<float>(0.1 + std::cos(angle)),
                           static_cast<float>(0.2 + std::sin(angle)), k % 2 ? 0.3f : 0.4f);
         };

@@ -244,12 +244,13 @@ std::vector<GrowthPoint> measure_growth(const Options& options) {
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i)
-                    keep(render<NoCounts>(scene, naive,
-                                          {.width = naive_width, .height = naive_height})
-                             .image);
+                    do_not_optimize(render<NoCounts>(scene, naive,
+                                                     {.width = naive_width, .height = naive_height})
+                                        .image);
             },
             [&] {
-                for (int i = 0; i < repeats; ++i) keep(rasterise(scene, width, height).pixels);
+                for (int i = 0; i < repeats; ++i)
+                    do_not_optimize(rasterise(scene, width, height).pixels);
             }};
         const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
         growth.push_back({.scene = measured.name,
@@ -281,13 +282,13 @@ std::vector<SharePoint> measure_shares(const Options& options) {
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i) {
-                    for (const Ray& ray : record.camera) keep(closest_hit(naive, ray));
-                    for (const Ray& ray : record.shadow) keep(any_hit(naive, ray));
+                    for (const Ray& ray : record.camera) do_not_optimize(closest_hit(naive, ray));
+                    for (const Ray& ray : record.shadow) do_not_optimize(any_hit(naive, ray));
                 }
             },
             [&] {
                 for (int i = 0; i < rest_repeats; ++i)
-                    keep(render<NoCounts>(scene, Player{record}, settings).image);
+                    do_not_optimize(render<NoCounts>(scene, Player{record}, settings).image);
             }};
         const std::vector<double> ms = interleaved_medians(candidates, 2 * rounds(effort) + 1);
         shares.push_back({measured.name, triangles, ms[0] / repeats, ms[1] / rest_repeats});

@@ -384,38 +384,38 @@ void draw_sphere(const Options& options) {
             "The ray's point nearest to a sphere's centre, and a sphere seen from 3,000 radii away "
             "by three formulas",
             640, 568);
-    const Sphere sphere{.center = {390.0f, 168.0f, 0.0f}, .radius = 112.0f};
+    const Sphere sphere{.centre = {390.0f, 168.0f, 0.0f}, .radius = 112.0f};
     const Ray ray{.origin = {50.0f, 150.0f, 0.0f},
                   .direction = glm::normalize(Vector3{1.0f, -0.14f, 0.0f})};
     const Vector3& d = ray.direction;
-    const Vector3 f = ray.origin - sphere.center;
+    const Vector3 f = ray.origin - sphere.centre;
     const Point3 nearest = ray.at(-glm::dot(f, d));
     const float t0 = SphereStable::intersect(ray, sphere).value();
     const Point3 enter = ray.at(t0),
                  leave = ray.at(SphereStable::intersect(Ray{ray.at(t0 + 1.0f), d}, sphere).value() +
                                 t0 + 1.0f);
     const auto flat = [](const Point3& p) { return Point2(p); };
-    svg.circle(flat(sphere.center), sphere.radius, {.fill = Ink::sky, .opacity = 0.35}, "sphere");
-    svg.line(flat(ray.origin), flat(sphere.center), {.stroke = Ink::blue});
-    svg.line(flat(sphere.center), flat(nearest), {.stroke = Ink::green});
-    svg.line(flat(sphere.center), flat(enter), {.stroke = Ink::quiet, .dashed = true});
+    svg.circle(flat(sphere.centre), sphere.radius, {.fill = Ink::sky, .opacity = 0.35}, "sphere");
+    svg.line(flat(ray.origin), flat(sphere.centre), {.stroke = Ink::blue});
+    svg.line(flat(sphere.centre), flat(nearest), {.stroke = Ink::green});
+    svg.line(flat(sphere.centre), flat(enter), {.stroke = Ink::quiet, .dashed = true});
     svg.line(flat(ray.origin), flat(ray.at(560)), {.stroke = Ink::vermillion, .arrow = true});
     const Vector2 along = 12.0f * Vector2(d),
-                  across = 12.0f * glm::normalize(Vector2(sphere.center - nearest));
+                  across = 12.0f * glm::normalize(Vector2(sphere.centre - nearest));
     svg.polyline({flat(nearest) - along, flat(nearest) - along + across, flat(nearest) + across},
                  {.stroke = Ink::quiet});
-    for (const Point3& p : {ray.origin, sphere.center, nearest, enter, leave})
+    for (const Point3& p : {ray.origin, sphere.centre, nearest, enter, leave})
         svg.circle(flat(p), 5, {.stroke = {}, .fill = Ink::ink});
     svg.text(moved(flat(ray.origin), 0, -14), "*O*", {.size = 20});
-    svg.text(moved(flat(sphere.center), 16, 16), "*C*", {.size = 20});
+    svg.text(moved(flat(sphere.centre), 16, 16), "*C*", {.size = 20});
     svg.text(moved(flat(nearest), 6, -12), "*N*", {.size = 20, .halo = true});
     svg.text(moved(flat(enter), -14, -10), "*t*_0", {.size = 20, .halo = true});
     svg.text(moved(flat(leave), 16, -12), "*t*_1", {.size = 20, .halo = true});
-    svg.text(moved(0.5f * flat(ray.origin + sphere.center), -20, 28), "*f*",
+    svg.text(moved(0.5f * flat(ray.origin + sphere.centre), -20, 28), "*f*",
              {.ink = Ink::blue, .size = 20});
-    svg.text(moved(0.5f * flat(sphere.center + nearest), 14, 8), "*n*",
+    svg.text(moved(0.5f * flat(sphere.centre + nearest), 14, 8), "*n*",
              {.ink = Ink::green, .size = 20});
-    svg.text(moved(0.5f * flat(sphere.center + enter), -10, 20), "*r*",
+    svg.text(moved(0.5f * flat(sphere.centre + enter), -10, 20), "*r*",
              {.ink = Ink::ink, .size = 20});
     svg.text({130, 246}, "half a chord, squared:", {});
     svg.text({130, 276}, "*r*² − |*n*|²", {.size = 20});

@@ -26,7 +26,7 @@ void count(const RayAndBox& pair, BoxAccuracy& accuracy) {
 /// The decision about a turned box in double: of the box as its float members say.
 bool hits_in_double(const Ray& ray, const OrientedBox& box) {
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(box.axes));
-    const Double3 origin = inverse * (Double3(ray.origin) - Double3(box.center)),
+    const Double3 origin = inverse * (Double3(ray.origin) - Double3(box.centre)),
                   direction = inverse * Double3(ray.direction);
     double enter = ray.tmin, leave = ray.tmax;
     for (int axis = 0; axis < 3; ++axis) {
@@ -90,7 +90,7 @@ OrientedBoxes oriented_box_accuracy(std::uint64_t rays, std::uint64_t seed) {
         const glm::dquat turn = glm::dquat(0.0, first) * glm::dquat(0.0, second);
         const Vector3 half = 0.5f + 0.5f * random_vector(random);
         const OrientedBox box{random_vector(random), glm::mat3(glm::mat3_cast(turn)), half};
-        const Double3 target = Double3(box.center) + 1.5 * Double3(random_vector(random));
+        const Double3 target = Double3(box.centre) + 1.5 * Double3(random_vector(random));
         const Point3 origin(target + 5.0 * random_direction(random));
         const Ray ray{.origin = origin, .direction = Point3(target) - origin};
         const bool hit = intersect(ray, box).has_value();

@@ -7,9 +7,9 @@ namespace {
 
 /// Aimed at a point of the ball of radius 1.5 around the centre.
 Ray ray_at(const Sphere& sphere, double distance, Pcg32& random) {
-    const double from_center = 1.5 * random.uniform_double();
-    const Double3 target = Double3(sphere.center) + from_center * random_direction(random);
-    const Point3 origin(Double3(sphere.center) + distance * random_direction(random));
+    const double from_centre = 1.5 * random.uniform_double();
+    const Double3 target = Double3(sphere.centre) + from_centre * random_direction(random);
+    const Point3 origin(Double3(sphere.centre) + distance * random_direction(random));
     return {.origin = origin, .direction = Point3(target) - origin};
 }
 
@@ -62,7 +62,7 @@ SpheresBehind spheres_behind(std::uint64_t rays, std::uint64_t seed) {
     SpheresBehind result{.rays = rays};
     for (std::uint64_t i = 0; i < rays; ++i) {
         const Sphere sphere{random_vector(random), 1.0f};
-        const Point3 origin(Double3(sphere.center) + 3.0 * random_direction(random));
+        const Point3 origin(Double3(sphere.centre) + 3.0 * random_direction(random));
         const Ray ray{.origin = origin, .direction = Vector3(random_direction(random))};
         const ExactQuadratic exact(ray, sphere);
         const bool printed = SphereAsPrinted::hits(ray, sphere);

@@ -55,9 +55,9 @@ struct ExactQuadratic {
 
     ExactQuadratic(const Ray& ray, const Sphere& sphere) {
         const Vector3& d = ray.direction;
-        const Expansion<2> fx = difference(ray.origin.x, sphere.center.x),
-                           fy = difference(ray.origin.y, sphere.center.y),
-                           fz = difference(ray.origin.z, sphere.center.z);
+        const Expansion<2> fx = difference(ray.origin.x, sphere.centre.x),
+                           fy = difference(ray.origin.y, sphere.centre.y),
+                           fz = difference(ray.origin.z, sphere.centre.z);
         const auto square = [](float x) {
             Expansion<1> one;
             one.push(x);

@@ -154,7 +154,7 @@ std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds) {
         using Test = TestOf<decltype(named)>;
         race.add(std::string(named.name),
                  [&leaves, ready = prepared_triangles<Test>(leaves.triangles)] {
-                     keep(test_leaves<Test>(leaves, ready));
+                     do_not_optimize(test_leaves<Test>(leaves, ready));
                  });
     });
     return race.times(static_cast<double>(leaves.tests()), rounds);
@@ -162,10 +162,10 @@ std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds) {
 
 std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds) {
     Race race;
-    race.add("first", [&] { keep(nearest_in_leaves<LichterFirst>(leaves)); });
-    race.add("fewer roots", [&] { keep(nearest_in_leaves<LichterFewerRoots>(leaves)); });
-    race.add("early exit", [&] { keep(nearest_in_leaves<LichterEarlyExit>(leaves)); });
-    race.add("improved", [&] { keep(nearest_in_leaves<LichterImproved>(leaves)); });
+    race.add("first", [&] { do_not_optimize(nearest_in_leaves<LichterFirst>(leaves)); });
+    race.add("fewer roots", [&] { do_not_optimize(nearest_in_leaves<LichterFewerRoots>(leaves)); });
+    race.add("early exit", [&] { do_not_optimize(nearest_in_leaves<LichterEarlyExit>(leaves)); });
+    race.add("improved", [&] { do_not_optimize(nearest_in_leaves<LichterImproved>(leaves)); });
     return race.times(static_cast<double>(leaves.tests()), rounds);
 }
 
@@ -213,10 +213,12 @@ Leaves leaves_of(Pattern pattern) {
 std::vector<Timed> time_orders(Pattern pattern, int rounds) {
     const Leaves leaves = leaves_of(pattern);
     Race race;
-    race.add("cheap first", [&] { keep(test_leaves<CheapFirst>(leaves, leaves.triangles)); });
+    race.add("cheap first",
+             [&] { do_not_optimize(test_leaves<CheapFirst>(leaves, leaves.triangles)); });
     race.add("expensive first",
-             [&] { keep(test_leaves<ExpensiveFirst>(leaves, leaves.triangles)); });
-    race.add("decide last", [&] { keep(test_leaves<DecideLast>(leaves, leaves.triangles)); });
+             [&] { do_not_optimize(test_leaves<ExpensiveFirst>(leaves, leaves.triangles)); });
+    race.add("decide last",
+             [&] { do_not_optimize(test_leaves<DecideLast>(leaves, leaves.triangles)); });
     return race.times(static_cast<double>(leaves.tests()), rounds);
 }
 
@@ -228,7 +230,7 @@ namespace {
 /// is vectorised.
 template <class Root>
 [[gnu::noinline]] void root_loop(std::span<const float> numbers, const Root& root) {
-    for (const float a : numbers) keep(root(a));
+    for (const float a : numbers) do_not_optimize(root(a));
 }
 template <class Root>
 [[gnu::noinline]] void root_loop_by_four(std::span<const float> numbers, const Root& root) {
@@ -249,17 +251,18 @@ void add_newton_forms(Race& race, std::span<const float> numbers) {
         root_loop_by_four(numbers, [](std::span<const float, 4> a) {
             float roots[4];
             newton_roots<Rounds>(a, roots);
-            keep(roots);
+            do_not_optimize(roots);
         });
     });
     add("vector type ", [=] {
         root_loop_by_four(numbers, [](std::span<const float, 4> a) {
-            keep(newton_root<Rounds>(Float4{a[0], a[1], a[2], a[3]}));
+            do_not_optimize(newton_root<Rounds>(Float4{a[0], a[1], a[2], a[3]}));
         });
     });
     add("std::simd ", [=] {
         root_loop_by_four(numbers, [](std::span<const float, 4> a) {
-            keep(newton_root<Rounds>(Simd4(a.data(), std::experimental::element_aligned)));
+            do_not_optimize(
+                newton_root<Rounds>(Simd4(a.data(), std::experimental::element_aligned)));
         });
     });
 }
@@ -292,7 +295,7 @@ std::vector<TimedRoot> time_roots(int rounds) {
     });
     race.add("four by the processor", [&] {
         root_loop_by_four(numbers, [](std::span<const float, 4> a) {
-            keep(_mm_sqrt_ps(_mm_loadu_ps(a.data())));
+            do_not_optimize(_mm_sqrt_ps(_mm_loadu_ps(a.data())));
         });
     });
 #endif
@@ -357,7 +360,7 @@ std::vector<Timed> time_box_tests(Pattern pattern, int rounds) {
     Race race;
     for_each_named(box_tests, [&](std::size_t, const auto& named) {
         race.add(std::string(named.name),
-                 [&] { keep(test_all<TestOf<decltype(named)>>(rays, boxes)); });
+                 [&] { do_not_optimize(test_all<TestOf<decltype(named)>>(rays, boxes)); });
     });
     return race.times(static_cast<double>(rays.size() * boxes.size()), rounds);
 }
@@ -376,7 +379,7 @@ std::vector<Timed> time_sphere_tests(int rounds) {
     Race race;
     for_each_named(sphere_tests, [&](std::size_t, const auto& named) {
         race.add(std::string(named.name),
-                 [&] { keep(test_all<TestOf<decltype(named)>>(rays, spheres)); });
+                 [&] { do_not_optimize(test_all<TestOf<decltype(named)>>(rays, spheres)); });
     });
     return race.times(static_cast<double>(rays.size() * spheres.size()), rounds);
 }
@@ -388,7 +391,7 @@ template <class Plane>
     float sum = 0.0f;
     for (const Ray& ray : rays)
         for (const Plane& plane : planes) sum += plane_t(ray, plane);
-    keep(sum);
+    do_not_optimize(sum);
 }
 
 }  // namespace
