@@ -2,6 +2,7 @@
 
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
+#include "common/program/xml.hpp"
 #include "docs/pages.hpp"
 
 #include <fmt/format.h>
@@ -29,13 +30,13 @@ MeasuredRun read_measured(const fs::path& file, const std::string& tables_as) {
 }
 
 std::string told(const Provenance& run, const Fingerprints& now) {
-    std::string text = fmt::format("Measured in a {} run on {}, on {}.", html(run.mode),
-                                   html(run.machine), html(run.date));
+    std::string text = fmt::format("Measured in a {} run on {}, on {}.", xml_escaped(run.mode),
+                                   xml_escaped(run.machine), xml_escaped(run.date));
     if (run.mode == "quick") text += " It takes fewer sizes and rounds than the book's.";
     std::vector<std::string> changed;
     for (const auto& [folder, print] : run.sources)
         if (const auto at = now.find(folder); at == now.end() || at->second != print)
-            changed.push_back(fmt::format("<code>{}</code>", html(folder)));
+            changed.push_back(fmt::format("<code>{}</code>", xml_escaped(folder)));
     if (!changed.empty())
         text += fmt::format(" Since then the code in {} has changed.", fmt::join(changed, ", "));
     return text;

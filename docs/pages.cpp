@@ -2,6 +2,7 @@
 
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
+#include "common/program/xml.hpp"
 #include "docs/ledger.hpp"
 #include "docs/measured.hpp"
 
@@ -168,7 +169,7 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
         const auto owed = std::ranges::count_if(claims, [&](const Claim& claim) {
             return std::ranges::find(claim.chapters, chapter.number) != claim.chapters.end();
         });
-        std::string title = html(chapter.title),
+        std::string title = xml_escaped(chapter.title),
                     state = chapter.begun.empty() ? "to come" : chapter.begun;
         if (const auto page = page_id(places, chapter))
             title = fmt::format("<a href=\"{}.html\">{}</a>", *page, title);
@@ -185,7 +186,8 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
         rows += fmt::format(
             "<li class=\"{}\"><span class=\"number\">{}</span><div><b>{}</b><p>{}</p></div><span "
             "class=\"state\">{}</span></li>\n",
-            chapter.here ? "here" : "to-come", chapter.number, title, html(chapter.teaches), state);
+            chapter.here ? "here" : "to-come", chapter.number, title, xml_escaped(chapter.teaches),
+            state);
     }
     return raw("<ol class=\"chapters\">\n" + rows + "</ol>\n");
 }
@@ -271,17 +273,17 @@ std::string badge(const std::string& verdict) {
 }
 
 std::string claim_card(const Claim& claim, const Answer* answer) {
-    const std::string note = claim.note.empty() ? "" : ", " + html(claim.note);
+    const std::string note = claim.note.empty() ? "" : ", " + xml_escaped(claim.note);
     std::string card = fmt::format(
         "<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p "
         "class=\"says\">{}</p>\n",
         answer ? answer->verdict : "open", claim.id, source_links({claim.source}), note,
-        badge(answer ? answer->verdict : "no answer yet"), html(claim.text));
+        badge(answer ? answer->verdict : "no answer yet"), xml_escaped(claim.text));
     if (answer)
         card += fmt::format(
             "<dl><dt>Measured</dt><dd>{}</dd><dt>Scene</dt><dd>{}</dd><dt>Rule</dt><dd>{}</dd></"
             "dl>\n",
-            html(answer->measured), html(answer->scene), html(answer->rule));
+            xml_escaped(answer->measured), xml_escaped(answer->scene), xml_escaped(answer->rule));
     return fmt::format("\\anchor claim_{}\n{}", claim.id, raw(card + "</div>\n"));
 }
 
@@ -298,13 +300,13 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
         if (!chapter.here) {
             to_come +=
                 fmt::format("<tr class=\"group\"><th colspan=\"3\">Chapter {}: {}</th></tr>\n",
-                            chapter.number, html(chapter.title));
+                            chapter.number, xml_escaped(chapter.title));
             for (const Claim* claim : mine)
                 to_come += fmt::format(
                     "<tr><td id=\"claim_{0}_{1}\">{0}</td><td>{2}{3}{4}</td><td>{5}</td></tr>\n",
-                    claim->id, chapter.number, html(claim->text),
-                    claim->how.empty() ? "" : "; " + html(claim->how),
-                    claim->note.empty() ? "" : " (" + html(claim->note) + ")",
+                    claim->id, chapter.number, xml_escaped(claim->text),
+                    claim->how.empty() ? "" : "; " + xml_escaped(claim->how),
+                    claim->note.empty() ? "" : " (" + xml_escaped(claim->note) + ")",
                     source_links({claim->source}));
             continue;
         }
@@ -353,7 +355,7 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
     const auto tab = [](const std::string& page, const std::string& title) {
         return fmt::format(
             "      <tab type=\"user\" visible=\"yes\" url=\"@ref {}\" title=\"{}\"/>\n", page,
-            html(title));
+            xml_escaped(title));
     };
     std::string menu;
     for (const Chapter& chapter : chapters)
@@ -383,27 +385,6 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
 }
 
 }  // namespace
-
-std::string html(std::string_view text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    return result;
-}
 
 /// The texts that people write, docs/*.dox and the chapters', with their measured numbers.
 void write_texts(const Places& places) {

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <string_view>
 
 namespace space::docs {
 
@@ -19,8 +17,5 @@ struct Places {
 /// Writes *.dox, texts/, layout.xml and images/ into places.pages.
 /// @throws Error (bad_input) for a malformed list, exercise or results file, (bad_output)
 void write_pages(const Places& places);
-
-/// The text with the characters that mean something in HTML written as entities.
-std::string html(std::string_view text);
 
 }  // namespace space::docs

@@ -4,6 +4,8 @@
 #include "common/program/file.hpp"
 #include "common/program/results.hpp"
 #include "common/program/svg.hpp"
+#include "common/program/temporary.hpp"
+#include "common/program/xml.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -401,29 +403,6 @@ class Script {
     std::string text_;
 };
 
-/// A directory that nobody else writes to, gone with its files at the end.
-class TemporaryDirectory {
-  public:
-    TemporaryDirectory()
-        : path_((std::filesystem::temp_directory_path() / "splitting_space_XXXXXX").string()) {
-        if (!::mkdtemp(path_.data()))
-            throw output_error(fmt::format("{}: cannot make a temporary directory: {}", path_,
-                                           std::strerror(errno)));
-    }
-    ~TemporaryDirectory() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryDirectory(const TemporaryDirectory&) = delete;
-    TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-    std::filesystem::path operator/(const char* name) const {
-        return std::filesystem::path(path_) / name;
-    }
-
-  private:
-    std::string path_;
-};
-
 /// What gnuplot makes of the script; nothing where there is no gnuplot. No shell is between.
 std::optional<std::string> run_gnuplot(const std::string& script, const std::string& id) {
     const TemporaryDirectory directory;
@@ -483,7 +462,7 @@ std::string restyled(std::string svg, const Chart& chart) {
     }
     colored.append(last, svg.cend());
 
-    const std::string id = svg_escaped(chart.id), ink = std::string(svg_color(Ink::ink)),
+    const std::string id = xml_escaped(chart.id), ink = std::string(svg_color(Ink::ink)),
                       paper = std::string(svg_color(Ink::paper));
     const std::array<std::pair<const char*, std::string>, 7> replacements{{
         {R"(<filter[\s\S]*?</filter>)", ""},

@@ -113,8 +113,8 @@ std::string marked_up(std::string_view text, double size) {
             attributes += fmt::format(" dy=\"{}\"", svg_number(subscript ? drop : -drop));
         dropped = subscript;
         result += attributes.empty()
-                      ? svg_escaped(characters)
-                      : fmt::format("<tspan{}>{}</tspan>", attributes, svg_escaped(characters));
+                      ? xml_escaped(characters)
+                      : fmt::format("<tspan{}>{}</tspan>", attributes, xml_escaped(characters));
     };
     while (!text.empty()) {
         if (text.front() == '*') {
@@ -141,30 +141,6 @@ std::string_view svg_color(Ink ink) {
     return palette[static_cast<std::size_t>(ink)].light;
 }
 
-std::string svg_escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\'':
-                result += "&apos;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < 0x20 ? "\uFFFD" : std::string(1, c);
-        }
-    return result;
-}
-
 std::string svg_number(double value) {
     if (!std::isfinite(value)) throw std::invalid_argument("svg: a coordinate is not finite");
     std::string text = fmt::format("{:.2f}", value);
@@ -181,7 +157,7 @@ std::string svg_opening(std::string_view figure_id, std::string_view title, doub
         "aria-labelledby=\"{0}-title\" width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\">\n"
         "<title id=\"{0}-title\">{3}</title>\n{4}"
         "<rect width=\"{1}\" height=\"{2}\" fill=\"{5}\"/>\n",
-        svg_escaped(figure_id), w, h, svg_escaped(title), style_block(), svg_color(Ink::paper));
+        xml_escaped(figure_id), w, h, xml_escaped(title), style_block(), svg_color(Ink::paper));
 }
 
 Svg::Svg(std::string figure_id, std::string title, double width, double height)
@@ -190,7 +166,7 @@ Svg::Svg(std::string figure_id, std::string title, double width, double height)
 void Svg::element(std::string_view tag, const std::string& attributes, std::string_view id) {
     body_ += fmt::format("<{}", tag);
     if (!id.empty())
-        body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
+        body_ += fmt::format(" id=\"{}-{}\"", xml_escaped(figure_id_), xml_escaped(id));
     body_ += attributes + "/>\n";
 }
 
@@ -244,7 +220,7 @@ void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::st
     constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
     body_ += "<text";
     if (!id.empty())
-        body_ += fmt::format(" id=\"{}-{}\"", svg_escaped(figure_id_), svg_escaped(id));
+        body_ += fmt::format(" id=\"{}-{}\"", xml_escaped(figure_id_), xml_escaped(id));
     body_ += fmt::format(
         " x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" "
         "fill=\"{}\"",
@@ -256,7 +232,7 @@ void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::st
 }
 
 void Svg::begin_group(std::string_view id) {
-    body_ += fmt::format("<g id=\"{}-{}\">\n", svg_escaped(figure_id_), svg_escaped(id));
+    body_ += fmt::format("<g id=\"{}-{}\">\n", xml_escaped(figure_id_), xml_escaped(id));
     ++open_groups_;
 }
 
@@ -264,7 +240,7 @@ void Svg::begin_step(int first, std::optional<int> last, std::string_view tells)
     body_ += fmt::format("<g data-first=\"{}\"", first);
     if (last) body_ += fmt::format(" data-last=\"{}\" display=\"none\"", *last);
     body_ += ">\n";
-    if (!tells.empty()) body_ += fmt::format("<desc>{}</desc>\n", svg_escaped(tells));
+    if (!tells.empty()) body_ += fmt::format("<desc>{}</desc>\n", xml_escaped(tells));
     ++open_groups_;
 }
 

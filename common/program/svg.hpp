@@ -96,9 +96,6 @@ std::string svg_opening(std::string_view figure_id, std::string_view title, doub
                         double height);
 /// The light value of a colour, "#0072b2": what stands in the elements' attributes.
 std::string_view svg_color(Ink ink);
-/// Text as it may stand in an element or in an attribute; control characters, which XML forbids,
-/// become U+FFFD.
-std::string svg_escaped(std::string_view text);
 /// At most two decimals, never "-0". @throws std::invalid_argument where the number is not finite
 std::string svg_number(double value);
 

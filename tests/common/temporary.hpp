@@ -1,7 +1,9 @@
 /// @file
-/// What tests of files and programs need: a directory of their own, a child process, what went to a
-/// stream.
+/// What tests of files and programs need: a child process, what went to a stream, what is in a
+/// directory.
 #pragma once
+
+#include "common/program/temporary.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,39 +11,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace space {
 
-/// A new empty directory that goes away with its content.
-class TemporaryDirectory {
-  public:
-    TemporaryDirectory() {
-        std::string name = (std::filesystem::temp_directory_path() / "book_test_XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary directory");
-        path_ = name;
-    }
-    ~TemporaryDirectory() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryDirectory(const TemporaryDirectory&) = delete;
-    TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    /// Files and directories in it, at any depth.
-    std::size_t entries() const {
-        std::size_t count = 0;
-        for ([[maybe_unused]] const auto& entry :
-             std::filesystem::recursive_directory_iterator(path_))
-            ++count;
-        return count;
-    }
-
-  private:
-    std::filesystem::path path_;
-};
+/// Files and directories in a directory, at any depth.
+inline std::size_t entries(const std::filesystem::path& directory) {
+    const std::filesystem::recursive_directory_iterator first(directory);
+    return static_cast<std::size_t>(std::distance(begin(first), end(first)));
+}
 
 /// What the body writes to the file descriptor (1: stdout, 2: stderr).
 template <class Body>

@@ -1,4 +1,5 @@
 #include "common/program/svg.hpp"
+#include "common/program/xml.hpp"
 
 #include "common/program/image.hpp"
 #include "tests/catch.hpp"
@@ -48,9 +49,9 @@ TEST_CASE("a number has at most two decimals and no negative zero") {
 }
 
 TEST_CASE("text cannot break out of its element") {
-    CHECK(svg_escaped("a < b & \"c\" > 'd'") == "a &lt; b &amp; &quot;c&quot; &gt; &apos;d&apos;");
-    CHECK(svg_escaped("bell\x07") == "bell\uFFFD");
-    CHECK(svg_escaped("säteenjäljitys") == "säteenjäljitys");
+    CHECK(xml_escaped("a < b & \"c\" > 'd'") == "a &lt; b &amp; &quot;c&quot; &gt; &apos;d&apos;");
+    CHECK(xml_escaped("bell\x07") == "bell\uFFFD");
+    CHECK(xml_escaped("säteenjäljitys") == "säteenjäljitys");
 
     Svg svg("f", "<script>", 10, 10);
     svg.text({0, 0}, "*<t>*_<", {}, "a\"b");

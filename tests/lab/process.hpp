@@ -4,11 +4,11 @@
 #pragma once
 
 #include "common/program/file.hpp"
+#include "common/program/temporary.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -23,26 +23,15 @@ extern "C" char** environ;
 
 namespace space {
 
-/// A directory of its own for each test, removed at its end. Its name is one that careless commands
-/// stumble over.
+/// A temporary directory with a name that careless commands stumble over.
 class Workbench {
   public:
-    Workbench() {
-        std::string name = (std::filesystem::temp_directory_path() / "läb bench XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary directory");
-        directory_ = name;
-    }
-    ~Workbench() {
-        std::error_code ignored;
-        std::filesystem::remove_all(directory_, ignored);
-    }
-    Workbench(const Workbench&) = delete;
-    Workbench& operator=(const Workbench&) = delete;
-
+    Workbench() { std::filesystem::create_directory(directory_); }
     std::filesystem::path operator/(std::string_view file) const { return directory_ / file; }
 
   private:
-    std::filesystem::path directory_;
+    TemporaryDirectory temporary_;
+    std::filesystem::path directory_ = temporary_ / "läb bench";
 };
 
 /// The words of a command line. Text is cut at its blanks; a path is one word.
@@ -78,6 +67,8 @@ struct Command {
     }
 };
 
+=======
+>>>>>>> 739baf8 (One temporary directory, one XML escape)
 struct Ended {
     int code;  ///< exit code; 128 + signal for a program that was killed
     std::string out, err;

@@ -4,8 +4,7 @@
 
 #include "common/mesh.hpp"
 #include "common/program/error.hpp"
-
-#include <unistd.h>
+#include "common/program/temporary.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -20,27 +19,15 @@ extern std::size_t largest_allocation;
 /// A folder that is gone at the end of the test.
 class Folder {
   public:
-    Folder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "book_XXXXXX").string();
-        if (!::mkdtemp(pattern.data())) throw output_error("no temporary folder: " + pattern);
-        path_ = pattern;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
     std::filesystem::path write(const std::string& name, std::string_view content) const {
-        const std::filesystem::path file = path_ / name;
+        const std::filesystem::path file = directory_ / name;
         std::ofstream(file, std::ios::binary) << content;
         return file;
     }
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return directory_.path(); }
 
   private:
-    std::filesystem::path path_;
+    TemporaryDirectory directory_;
 };
 
 /// The line that the loader complains with; "loaded" if it does not, and why it is a bad complaint
