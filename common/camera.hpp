@@ -5,7 +5,9 @@
 #include "common/geometry.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 namespace space {
 
@@ -42,6 +44,36 @@ inline Ray camera_ray(const Camera& camera, const CameraFrame& frame, double x, 
     const Double3 direction = frame.right * ((2.0 * x / width - 1.0) * half_width) +
                               frame.up * ((1.0 - 2.0 * y / height) * half_height) - frame.back;
     return {.origin = camera.eye, .direction = Vector3(direction)};
+}
+
+/// A camera and the size of its picture in pixels: where the picture's rays are.
+struct PixelGrid {
+    Camera camera;
+    CameraFrame frame;
+    int width, height;
+
+    PixelGrid(const Camera& of, int w, int h) : camera(of), frame(of), width(w), height(h) {}
+
+    /// Through the centre of the pixel in column x and row y; (0, 0) is the top left one.
+    Ray ray(int x, int y) const { return ray_through(x + 0.5, y + 0.5); }
+    /// Through any point of the picture, in pixels from its top left corner.
+    Ray ray_through(double x, double y) const {
+        return camera_ray(camera, frame, x, y, width, height);
+    }
+    /// Calls visit(x, y) for each pixel, row by row from the top left.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) visit(x, y);
+    }
+};
+
+/// One ray through the centre of each pixel, row by row from the top left.
+inline std::vector<Ray> camera_rays(const PixelGrid& grid) {
+    std::vector<Ray> rays;
+    rays.reserve(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+    grid.for_each([&](int x, int y) { rays.push_back(grid.ray(x, y)); });
+    return rays;
 }
 
 }  // namespace space

@@ -13,6 +13,8 @@
 
 namespace space {
 
+struct Options;
+
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 /// Real time, by a clock that is never set back.
@@ -75,6 +77,14 @@ inline double log_log_slope(std::span<const double> x, std::span<const double> y
 template <class T>
 void do_not_optimize(const T& value) {
     asm volatile("" : : "r,m"(value) : "memory");
+}
+
+/// What measure(options) returns, measured the first time only: tables, claims and charts of one
+/// program show the same run.
+template <auto measure>
+const auto& measured_once(const Options& options) {
+    static const auto result = measure(options);
+    return result;
 }
 
 }  // namespace space

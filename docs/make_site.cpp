@@ -36,9 +36,10 @@ void copy_mathjax(const fs::path& from, const fs::path& to) {
 }
 
 /// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
-void run_doxygen(const fs::path& work, const fs::path& site) {
+void run_doxygen(const docs::Places& places, const fs::path& site) {
+    const fs::path& work = places.pages;
     const std::string settings =
-        read_file(fs::path(BOOK_DOXYFILE)) +
+        read_file(fs::path(BOOK_DOXYFILE)) + docs::figure_aliases(places) +
         fmt::format(
             "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nFILE_PATTERNS += *.dox\n"
             "EXCLUDE_PATTERNS += \"{2}/docs/*.dox\" \"{2}/chapters/*.dox\"\n"
@@ -74,7 +75,7 @@ int make_site(int argc, char** argv) {
     fs::remove_all(fresh);
     places.pages = work;
     docs::write_pages(places);
-    run_doxygen(work, fresh);
+    run_doxygen(places, fresh);
     docs::finish_pages(fresh);
     docs::write_search_text(fresh);
     copy_mathjax(BOOK_MATHJAX, fresh / "mathjax");

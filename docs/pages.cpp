@@ -43,9 +43,13 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+const char* extension_of(const Figure& figure) {
+    return figure.kind == "rendering" ? "png" : "svg";
+}
+
 /// Figures of a folder named chNN: the reader's own run where it is newer than what is committed.
 fs::path newest_figure(const Places& places, const Figure& figure) {
-    const std::string name = figure.id + (figure.kind == "rendering" ? ".png" : ".svg");
+    const std::string name = fmt::format("{}.{}", figure.id, extension_of(figure));
     const fs::path own = places.runs / figure.chapter.substr(0, 4) / name;
     for (const fs::path& committed :
          {places.root / "figures" / name, places.root / "figures/measured" / name})
@@ -247,10 +251,8 @@ std::string figures_page(const std::vector<Chapter>& chapters, const std::vector
                             chapter.number, chapter.title);
         for (const Figure& figure : figures) {
             if (figure.chapter != chapter.folder) continue;
-            const std::string extension = figure.kind == "rendering" ? "png" : "svg";
-            const std::string caption =
-                std::regex_replace(figure.caption, std::regex("\""), "\\\"");
-            text += fmt::format("\\image html {}.{} \"{}\"\n", figure.id, extension, caption);
+            text += fmt::format("\\{}\n", figure.id);
+            const std::string extension = extension_of(figure);
             std::string links =
                 fmt::format("<code>{0}</code> {1} <a href=\"{0}.{2}\" download>{3}</a>", figure.id,
                             figure.kind, extension, extension == "svg" ? "SVG" : "PNG");
@@ -400,6 +402,19 @@ void write_texts(const Places& places) {
     write_all("docs");
     for (const auto& entry : fs::directory_iterator(places.root / "chapters"))
         if (entry.is_directory()) write_all("chapters" / entry.path().filename());
+}
+
+std::string figure_aliases(const Places& places) {
+    std::string lines;
+    for (const Figure& figure : read_figures(places)) {
+        const int chapter = std::stoi(figure.id.substr(4, 2)),
+                  number = std::stoi(figure.id.substr(7));
+        const std::string caption = std::regex_replace(figure.caption, std::regex("\""), "\\\"");
+        lines +=
+            fmt::format("ALIASES += \"{0}=\\image html {0}.{1} \\\"Figure {2}.{3}: {4}\\\"\"\n",
+                        figure.id, extension_of(figure), chapter, number, caption);
+    }
+    return lines;
 }
 
 void write_pages(const Places& places) {

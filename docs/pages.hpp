@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace space::docs {
 
@@ -17,5 +18,9 @@ struct Places {
 /// Writes *.dox, texts/, layout.xml and images/ into places.pages.
 /// @throws Error (bad_input) for a malformed list, exercise or results file, (bad_output)
 void write_pages(const Places& places);
+
+/// Settings for Doxygen: \\fig_01_03 in a page stands for that figure with its number and its
+/// caption, both from the register of figures.
+std::string figure_aliases(const Places& places);
 
 }  // namespace space::docs

@@ -13,16 +13,12 @@ namespace space {
 
 /// What the ray through each pixel's centre hits: a depth buffer made by the ray tracer.
 template <Accelerator A>
-DepthBuffer trace_depth(const Camera& camera, const A& accelerator, int width, int height,
-                        unsigned threads) {
-    const CameraFrame frame(camera);
-    DepthBuffer buffer(width, height);
-    parallel_for(static_cast<std::size_t>(height), threads, 1, [&](std::size_t row) {
+DepthBuffer trace_depth(const PixelGrid& grid, const A& accelerator, unsigned threads) {
+    DepthBuffer buffer(grid.width, grid.height);
+    parallel_for(static_cast<std::size_t>(grid.height), threads, 1, [&](std::size_t row) {
         const int y = static_cast<int>(row);
-        for (int x = 0; x < width; ++x)
-            if (const auto hit = closest_hit(
-                    accelerator, camera_ray(camera, frame, x + 0.5, y + 0.5, width, height)))
-                buffer.at(x, y) = *hit;
+        for (int x = 0; x < grid.width; ++x)
+            if (const auto hit = closest_hit(accelerator, grid.ray(x, y))) buffer.at(x, y) = *hit;
     });
     return buffer;
 }
@@ -62,8 +58,9 @@ inline constexpr double same_depth_tolerance = 8 * float_roundoff;
 
 inline Coverage compare_coverage(const Scene& scene, const DepthBuffer& traced,
                                  const DepthBuffer& rasterised) {
-    const Rasteriser projector(scene.camera, traced.width, traced.height);
-    const double limit = coverage_distance(scene.camera, traced.width, traced.height);
+    const PixelGrid grid(scene.camera, traced.width, traced.height);
+    const Rasteriser projector(grid);
+    const double limit = coverage_distance(grid);
     Coverage coverage;
     for (int y = 0; y < traced.height; ++y)
         for (int x = 0; x < traced.width; ++x) {

@@ -1,14 +1,14 @@
 /// Chapter 1: naive ray tracing, Heinonen16's Algorithm 1 as printed and corrected, beside a
-/// rasteriser. Run   ch01_naive_ray_tracing --scene room --out pictures Draw ch01_naive_ray_tracing
-/// --figure fig_01_03 --out figures
+/// rasteriser.
+///     ch01_naive_ray_tracing --scene room --out pictures
+///     ch01_naive_ray_tracing --figure fig_01_03 --out figures
 #include "chapters/ch01_naive_ray_tracing/coverage.hpp"
-#include "chapters/ch01_naive_ray_tracing/figures/figures.hpp"
 #include "chapters/ch01_naive_ray_tracing/measured/measurements.hpp"
 #include "chapters/ch01_naive_ray_tracing/measured/outcome.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
-#include "common/program/file.hpp"
 #include "common/program/report.hpp"
 
 #include <CLI/CLI.hpp>
@@ -37,7 +37,7 @@ ChapterOptions read_options(int argc, char** argv) {
     };
     ChapterOptions options{parse_options(
         argc, argv,
-        {.name = "ch01_naive_ray_tracing",
+        {.name = this_chapter.name,
          .about = "Chapter 1: naive ray tracing, wrong and right, beside a rasteriser",
          .defaults = {.scene = "room:3", .width = 240, .height = 180}},
         add_samples)};
@@ -90,16 +90,15 @@ void draw_pictures(const ChapterOptions& options) {
     row("ray-triangle tests", counts.traversal.triangles_tested);
     table.print();
 
-    const Coverage coverage = compare_coverage(
-        scene, trace_depth(scene.camera, naive, settings.width, settings.height, settings.threads),
-        rasterise(scene, settings.width, settings.height));
+    const PixelGrid grid(scene.camera, settings.width, settings.height);
+    const Coverage coverage = compare_coverage(scene, trace_depth(grid, naive, settings.threads),
+                                               rasterise(scene, settings.width, settings.height));
     fmt::print(
         "\nThe rasteriser sees another triangle in {} of {} pixels, {} of them within {:.4f} "
         "pixels of an edge\n"
         "(farthest {:.4f}), {} where two triangles meet or overlap at the same depth.\n",
         with_commas(coverage.disagree), with_commas(coverage.pixels),
-        with_commas(coverage.near_edge),
-        coverage_distance(scene.camera, settings.width, settings.height), coverage.farthest,
+        with_commas(coverage.near_edge), coverage_distance(grid), coverage.farthest,
         with_commas(coverage.same_depth));
 
     write_png(options.out / "ch01_corrected.png", corrected.image);
@@ -111,35 +110,24 @@ void draw_pictures(const ChapterOptions& options) {
 
 int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
-    if (options.figure) return make_figures(chapter01_figures(), options);
-    check_writable(options.out / "results.json");
+    if (options.figure) return write_figures(this_chapter.figures, options);
+    check_results_writable(options);
     if (!options.counts) draw_pictures(options);
+
     const Measurements measured = measure(options);
     print_counts(measured.counts);
-    const Provenance run = provenance("ch01_naive_ray_tracing", options);
-    quoted(measured).write(options.out, run);
-    const bool agree = std::ranges::all_of(
-        measured.counts, [](const auto& scene) { return scene.unexplained == 0; });
-    const int exit_code = static_cast<int>(agree ? ExitCode::ok : ExitCode::wrong_answer);
-    if (options.counts) return exit_code;
+    quoted(measured).write(options.out, provenance(std::string(this_chapter.name), options));
+    std::uint64_t unexplained = 0;  // pixels in which the renderers differ
+    for (const SceneCounts& scene : measured.counts) unexplained += scene.unexplained;
+    if (options.counts) return exit_code(unexplained);
 
-    const Results results{run, answer_claims(measured)};
-    write_results(options.out / "results.json", results);
-    if (options.small) return exit_code;  // times are no test's business
-
-    print_times(measured.growth, measured.shares);
-    write_chart(options.out, growth_chart(measured.growth));
-    write_chart(options.out, share_chart(measured.shares));
-    write_chart(options.out, accuracy_chart(measured.leaks));
-    print_heading("The sources' claims");
-    for (const ClaimAnswer& answer : results.answers)
-        fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
-    return exit_code;
+    if (!options.small) print_times(measured.growth, measured.shares);
+    return finish(options, answer_claims(measured), unexplained);
 }
 
 }  // namespace
 }  // namespace space::ch01
 
 int main(int argc, char** argv) {
-    return space::run_program("ch01_naive_ray_tracing", space::ch01::run, argc, argv);
+    return space::run_program(space::this_chapter.name, space::ch01::run, argc, argv);
 }

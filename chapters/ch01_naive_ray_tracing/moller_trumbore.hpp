@@ -11,7 +11,7 @@
 namespace space {
 
 /// A ray-triangle test: a hit of the ray with the closed triangle, its index left at 0, or nothing.
-/// chapter 2 holds many of them side by side.
+/// Chapter 2 has many of them.
 template <class T>
 concept TriangleTest = requires(const Ray& ray, const Triangle& triangle) {
     { T::intersect(ray, triangle) } -> std::same_as<std::optional<Hit>>;

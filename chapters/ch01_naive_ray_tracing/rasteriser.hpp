@@ -56,9 +56,9 @@ inline constexpr double near_fraction = 0x1p-10;
 ///   r)^2;
 /// - of the double arithmetic in both: by less than 2^-20 pixels, for edges that do not point at
 /// the eye to within 10^-6.
-inline double coverage_distance(const Camera& camera, int width, int height) {
-    const double pixels_per_unit = 0.5 * height / CameraFrame(camera).tan_half_fov;
-    const double r = 0.5 * std::hypot(width, height) / pixels_per_unit;
+inline double coverage_distance(const PixelGrid& grid) {
+    const double pixels_per_unit = 0.5 * grid.height / grid.frame.tan_half_fov;
+    const double r = 0.5 * std::hypot(grid.width, grid.height) / pixels_per_unit;
     return std::sqrt(0.5) / subpixels + pixels_per_unit * float_roundoff * (1.0 + r) * (1.0 + r) +
            0x1p-20;
 }
@@ -67,12 +67,12 @@ inline double coverage_distance(const Camera& camera, int width, int height) {
 /// Triangle after triangle into a z-buffer: one picture, drawn by any number of calls.
 class Rasteriser {
   public:
-    Rasteriser(const Camera& camera, int width, int height)
-        : camera_(camera),
-          frame_(camera),
-          pixels_per_unit_(0.5 * height / frame_.tan_half_fov),
-          near_(near_fraction * glm::distance(Double3(camera.eye), Double3(camera.target))),
-          buffer_(width, height) {}
+    explicit Rasteriser(const PixelGrid& grid)
+        : grid_(grid),
+          pixels_per_unit_(0.5 * grid.height / grid.frame.tan_half_fov),
+          near_(near_fraction *
+                glm::distance(Double3(grid.camera.eye), Double3(grid.camera.target))),
+          buffer_(grid.width, grid.height) {}
 
     // [draw]
     /// Draws one triangle; the order of the triangles does not matter.
@@ -149,10 +149,10 @@ class Rasteriser {
     // [plane]
 
     Double3 to_camera(const Point3& point) const {
-        return world_to_camera(camera_, frame_, Double3(point));
+        return world_to_camera(grid_.camera, grid_.frame, Double3(point));
     }
     glm::dvec2 to_pixel(const Double3& camera_point) const {
-        return camera_to_pixel(frame_, camera_point, buffer_.width, buffer_.height);
+        return camera_to_pixel(grid_.frame, camera_point, grid_.width, grid_.height);
     }
     static Subpixel round(const glm::dvec2& pixel) {
         return {std::llround(pixel.x * subpixels), std::llround(pixel.y * subpixels)};
@@ -233,8 +233,7 @@ class Rasteriser {
                 (0.5 * buffer_.height - y - 0.5) / pixels_per_unit_, -1.0};
     }
 
-    Camera camera_;
-    CameraFrame frame_;
+    PixelGrid grid_;
     double pixels_per_unit_;
     double near_;  ///< depth of the near plane
     DepthBuffer buffer_;
@@ -242,7 +241,7 @@ class Rasteriser {
 
 /// The whole scene, triangle after triangle.
 inline DepthBuffer rasterise(const Scene& scene, int width, int height) {
-    Rasteriser rasteriser(scene.camera, width, height);
+    Rasteriser rasteriser({scene.camera, width, height});
     for (std::uint32_t face = 0; face < scene.mesh.faces.size(); ++face)
         rasteriser.draw(scene.mesh.triangle(face), face);
     return rasteriser.buffer();
@@ -253,17 +252,14 @@ inline DepthBuffer rasterise(const Scene& scene, int width, int height) {
 /// point and the light: no shadows.
 inline Image render_rasterised(const Scene& scene, int width, int height, int samples = 1) {
     const DepthBuffer buffer = rasterise(scene, width * samples, height * samples);
-    const CameraFrame frame(scene.camera);
+    const PixelGrid grid(scene.camera, buffer.width, buffer.height);
     Image image(width, height);
-    for (int y = 0; y < buffer.height; ++y)
-        for (int x = 0; x < buffer.width; ++x) {
-            const Hit& hit = buffer.at(x, y);
-            const Ray ray =
-                camera_ray(scene.camera, frame, x + 0.5, y + 0.5, buffer.width, buffer.height);
-            image.at(x / samples, y / samples) +=
-                hit.t < infinity ? shade(scene, ray, hit, [](const Ray&) { return true; })
-                                 : scene.background;
-        }
+    grid.for_each([&](int x, int y) {
+        const Hit& hit = buffer.at(x, y);
+        image.at(x / samples, y / samples) +=
+            hit.t < infinity ? shade(scene, grid.ray(x, y), hit, [](const Ray&) { return true; })
+                             : scene.background;
+    });
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) image.at(x, y) /= static_cast<float>(samples * samples);
     return image;

@@ -52,7 +52,7 @@ struct Rendering {
 template <class ColorOfRay>
 Rendering render_pixels(const Camera& camera, const RenderSettings& settings, Progress* progress,
                         const ColorOfRay& color_of_ray) {
-    const CameraFrame frame(camera);
+    const PixelGrid grid(camera, settings.width, settings.height);
     const int n = settings.samples;
     Image image(settings.width, settings.height);
     std::vector<RenderCounts> row_counts(static_cast<std::size_t>(settings.height));
@@ -62,10 +62,8 @@ Rendering render_pixels(const Camera& camera, const RenderSettings& settings, Pr
             Color sum{0.0f};
             for (int sample = 0; sample < n * n; ++sample) {
                 const double sub_x = x + (sample % n + 0.5) / n, sub_y = y + (sample / n + 0.5) / n;
-                const Ray ray =
-                    camera_ray(camera, frame, sub_x, sub_y, settings.width, settings.height);
                 ++row_counts[row].camera_rays;
-                sum += color_of_ray(ray, row_counts[row]);
+                sum += color_of_ray(grid.ray_through(sub_x, sub_y), row_counts[row]);
             }
             image.at(x, y) = sum / static_cast<float>(n * n);
         }

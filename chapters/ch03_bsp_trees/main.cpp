@@ -1,12 +1,13 @@
 /// Chapter 3: BSP trees with polygon splitting, by six choices of splitters and in four grades of
-/// care. Run   ch03_bsp_trees --out pictures Draw  ch03_bsp_trees --figure fig_03_01 --out figures
+/// care.
+///     ch03_bsp_trees --out pictures
+///     ch03_bsp_trees --figure fig_03_01 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
-#include "chapters/ch03_bsp_trees/figures/figures.hpp"
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
+#include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
-#include "common/program/file.hpp"
 #include "common/program/report.hpp"
 
 #include <CLI/CLI.hpp>
@@ -46,7 +47,7 @@ ChapterOptions read_options(int argc, char** argv) {
     };
     ChapterOptions options{
         parse_options(argc, argv,
-                      {.name = "ch03_bsp_trees",
+                      {.name = this_chapter.name,
                        .about = "Chapter 3: BSP trees with polygon splitting",
                        .defaults = {.scene = default_scene, .width = 240, .height = 180}},
                       add_tree)};
@@ -110,9 +111,8 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
 
 int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
-    if (options.figure) return make_figures(chapter03_figures(), options);
-    check_writable(options.out / "results.json");
-    check_writable(options.out / "results.json");
+    if (options.figure) return write_figures(this_chapter.figures, options);
+    check_results_writable(options);
     const bool times = !options.small;  // they are no test's business
 
     std::uint64_t wrong = draw_pictures(options);
@@ -120,27 +120,16 @@ int run(int argc, char** argv) {
     print_methods(measured.methods = measure_methods(options.scene, options), times);
     print_scenes(measured.scenes = measure_scenes(options), times);
     print_crossings(measured.crossings = measure_crossings(options));
-    print_grades(measured.grades = measure_grades(options), times);
-    print_growth(measured.growth = measure_growth(options), times);
+    print_grades(measured.grades = measured_once<measure_grades>(options), times);
+    print_growth(measured.growth = measured_once<measure_growth>(options), times);
     wrong += wrong_answers(measured);
-
-    const Results results{provenance("ch03_bsp_trees", options), answer_claims(measured)};
-    write_results(options.out / "results.json", results);
-    if (times) {
-        for (const Chart& chart : {fragments_chart(measured.growth), build_chart(measured.growth),
-                                   grades_chart(measured.grades), rays_chart(measured.growth)})
-            write_chart(options.out, chart);
-        print_heading("The sources' claims");
-        for (const ClaimAnswer& answer : results.answers)
-            fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
-    }
     fmt::print("\n{} wrong answers.\n", wrong);
-    return static_cast<int>(wrong ? ExitCode::wrong_answer : ExitCode::ok);
+    return finish(options, answer_claims(measured), wrong);
 }
 
 }  // namespace
 }  // namespace space::ch03
 
 int main(int argc, char** argv) {
-    return space::run_program("ch03_bsp_trees", space::ch03::run, argc, argv);
+    return space::run_program(space::this_chapter.name, space::ch03::run, argc, argv);
 }

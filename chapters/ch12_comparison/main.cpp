@@ -22,7 +22,7 @@ int comparison(int argc, char** argv) {
                              {.name = "ch12_comparison",
                               .about = "Chapter 12: the lab (ch12_comparison lab --help)",
                               .defaults = {}});
-    if (options.figure) return space::make_figures({}, options);
+    if (options.figure) return space::write_figures({}, options);
     space::print_heading("Chapter 12: comparison");
     fmt::print(
         "The comparison of all structures on all scenes is not written yet. The lab runs those "

@@ -108,8 +108,11 @@ function(add_chapter)
         book_left_out("chapter ${chapter}" "it has no program yet")
         return()
     endif()
-    add_executable(${chapter} ${dir}/main.cpp ${figures})
+    add_executable(${chapter} ${dir}/main.cpp ${figures} ${CMAKE_CURRENT_BINARY_DIR}/figure_register.cpp)
     target_link_libraries(${chapter} PRIVATE ${libraries} book_flags)
+    target_include_directories(${chapter} PRIVATE ${PROJECT_BINARY_DIR}/register)
+    target_compile_options(${chapter} PRIVATE -Wmissing-declarations)  # finds a figure without an add_figure line
+    cmake_language(DEFER CALL book_write_register)
     set_target_properties(${chapter} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
     add_dependencies(programs ${chapter})
     book_built("chapter ${chapter}")
@@ -134,7 +137,10 @@ function(add_chapter)
 endfunction()
 
 # add_figure(fig_01_03 drawing|rendering|chart "caption" [SLOW])
-# Names a figure that the chapter's program makes with --figure. Drawings and renderings have the same bytes
+# Names a figure that the chapter's program makes with --figure: by a function of that name in the chapter's namespace,
+#   Svg fig_01_03(const Options&), for a rendering Image fig_01_03(...), for a chart Chart fig_01_03(...),
+# declared in the header "chapters/CHAPTER/figures.hpp", which is made from these lines. The caption stands below the
+# figure in the gallery, and in the text where \fig_01_03 stands. Drawings and renderings have the same bytes
 # everywhere: a test makes them again and compares them with those in figures/. Charts show measured times. What is SLOW
 # takes minutes: it is made by a full run or when it is asked for by its id, and is not tested.
 function(add_figure id kind caption)
@@ -150,6 +156,7 @@ function(add_figure id kind caption)
     string(JOIN ", " entry "\"id\": \"${id}\"" "\"chapter\": \"${chapter}\"" "\"kind\": \"${kind}\""
            "\"slow\": ${slow}" "\"caption\": \"${caption}\"")
     set_property(GLOBAL APPEND PROPERTY BOOK_FIGURES "{${entry}}")
+    set_property(DIRECTORY APPEND PROPERTY BOOK_REGISTER "${id} ${kind}")
     if(slow OR kind STREQUAL "chart")
         return()
     endif()
@@ -161,6 +168,53 @@ function(add_figure id kind caption)
              -D SUFFIX=${suffix} -D REFERENCES=${PROJECT_SOURCE_DIR}/figures -D OUT=${PROJECT_BINARY_DIR}/figures
              -P ${PROJECT_SOURCE_DIR}/tests/house/compare_figure.cmake)
     set_tests_properties(${short}.${id} PROPERTIES LABELS "figure;no_sanitizer" TIMEOUT 300)
+endfunction()
+
+# The register of a chapter's figures in C++, from its add_figure lines: the header that declares their functions (who
+# defines one includes it, so that the compiler sees the kind), and the table for the program.
+function(book_write_register)
+    book_this_chapter()
+    set(type_drawing Svg)
+    set(type_rendering Image)
+    set(type_chart Chart)
+    get_property(lines DIRECTORY PROPERTY BOOK_REGISTER)
+    set(declarations "")
+    set(entries "")
+    foreach(line IN LISTS lines)
+        string(REGEX MATCH "^([^ ]+) ([^ ]+)$" line "${line}")
+        string(APPEND declarations "${type_${CMAKE_MATCH_2}} ${CMAKE_MATCH_1}(const Options& options);\n")
+        string(APPEND entries "    {\"${CMAKE_MATCH_1}\", ${short}::${CMAKE_MATCH_1}},\n")
+    endforeach()
+    set(made "// Made by common/cmake/Book.cmake from the add_figure lines of chapters/${chapter}/CMakeLists.txt.\n")
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/register/chapters/${chapter}/figures.hpp CONTENT
+"${made}#pragma once
+
+#include \"common/program/figure.hpp\"
+
+namespace space::${short} {
+
+${declarations}
+}  // namespace space::${short}
+" @ONLY)
+    set(table "constexpr std::span<const Figure> figures;\n")
+    if(entries)
+        set(table "constexpr Figure figures[] = {\n${entries}};\n")
+    endif()
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/figure_register.cpp CONTENT
+"${made}#include \"common/program/chapter.hpp\"
+
+#include \"chapters/${chapter}/figures.hpp\"
+
+namespace space {
+namespace {
+
+${table}
+}  // namespace
+
+const Chapter this_chapter{\"${chapter}\", figures};
+
+}  // namespace space
+" @ONLY)
 endfunction()
 
 # Catch2, compiled once; a program without test cases fails (version 3 does that unasked).

@@ -19,14 +19,15 @@ int printed(int result) {
 
 }  // namespace
 
-int run_program(const char* name, int (*body)(int, char**), int argc, char** argv) {
+int run_program(std::string_view name, int (*body)(int, char**), int argc, char** argv) {
+    const int length = static_cast<int>(name.size());
     try {
         return printed(body(argc, argv));
     } catch (const Error& error) {
-        std::fprintf(stderr, "%s: %s\n", name, error.what());
+        std::fprintf(stderr, "%.*s: %s\n", length, name.data(), error.what());
         return static_cast<int>(error.code());
     } catch (const LimitError& error) {
-        std::fprintf(stderr, "%s: %s\n", name, error.what());
+        std::fprintf(stderr, "%.*s: %s\n", length, name.data(), error.what());
         return static_cast<int>(ExitCode::usage);
     } catch (const std::system_error& error) {
         const bool printing = std::ferror(stdout) != 0;  // fmt::print throws
@@ -35,9 +36,9 @@ int run_program(const char* name, int (*body)(int, char**), int argc, char** arg
                      printing ? error.code().message().c_str() : error.what());
         if (printing) return static_cast<int>(ExitCode::bad_output);
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s: out of memory\n", name);
+        std::fprintf(stderr, "%.*s: out of memory\n", length, name.data());
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s: internal error: %s\n", name, error.what());
+        std::fprintf(stderr, "%.*s: internal error: %s\n", length, name.data(), error.what());
     }
     return static_cast<int>(ExitCode::internal);
 }

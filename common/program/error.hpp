@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace space {
 
@@ -39,6 +40,6 @@ inline Error output_error(const std::string& line) {
 
 /// Runs a program's body; an Error becomes one line on stderr, "NAME: line", and its exit code; so
 /// does a LimitError, whose exit code is that of an absurd value.
-int run_program(const char* name, int (*body)(int, char**), int argc, char** argv);
+int run_program(std::string_view name, int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace space

@@ -86,7 +86,7 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
                       const std::function<void(CLI::App&)>& more) {
     Options options = program.defaults;
-    CLI::App app(program.about, program.name);
+    CLI::App app(program.about, std::string(program.name));
     app.add_option("--scene", options.scene, "a scene by name (NAME or NAME:SIZE) or a mesh file")
         ->capture_default_str();
     app.add_flag("--small", options.small,

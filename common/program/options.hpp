@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -16,7 +17,10 @@ class Option;
 
 namespace space {
 
-/// Their values, as a program gets them.
+/// How much a program measures: for tests (--small), for a look (--quick), for the book.
+enum class Amount { small, quick, full };
+
+/// What a program's command line says.
 struct Options {
     std::string scene = {};  ///< --scene NAME, NAME:SIZE or FILE
     bool small = false;      ///< --small: counts only, in a second or two; what the tests run
@@ -28,12 +32,14 @@ struct Options {
     int width = 640, height = 480;  ///< --size WxH
     std::optional<std::string> figure =
         {};  ///< --figure ID (or "all"): draw into --out and do nothing else
+
+    Amount amount() const { return small ? Amount::small : quick ? Amount::quick : Amount::full; }
 };
 
 /// What a program brings to its command line.
 struct ProgramInfo {
-    std::string name;   ///< "ch01_naive_ray_tracing"
-    std::string about;  ///< first line of --help
+    std::string_view name;  ///< "ch01_naive_ray_tracing"
+    std::string about;      ///< first line of --help
     Options defaults;
 };
 

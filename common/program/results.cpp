@@ -2,9 +2,12 @@
 
 #include "common/program/file.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace space {
+
 std::string_view name(Verdict verdict) {
     switch (verdict) {
         case Verdict::confirmed:
@@ -15,6 +18,14 @@ std::string_view name(Verdict verdict) {
             return "depends";
     }
     return "";
+}
+
+Verdict verdict_of(std::size_t agree, std::size_t all) {
+    return agree == all ? Verdict::confirmed : agree == 0 ? Verdict::refuted : Verdict::depends;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 void write_results(const std::filesystem::path& file, const Results& results) {

@@ -15,6 +15,10 @@ namespace space {
 /// confirmed, refuted, or depends (on what `measured` says). Always computed from a measurement.
 enum class Verdict { confirmed, refuted, depends };
 std::string_view name(Verdict verdict);
+/// confirmed where all scenes (or series, or tests) agree with the claim, refuted where none does.
+Verdict verdict_of(std::size_t agree, std::size_t all);
+/// "soup, room, boxes": for what was measured and on what.
+std::string joined(const std::vector<std::string>& words);
 
 /// What a program measured about one claim of the sources.
 struct ClaimAnswer {

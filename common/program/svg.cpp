@@ -1,6 +1,7 @@
 #include "common/program/svg.hpp"
 
 #include "common/program/image.hpp"
+#include "common/program/xml.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,9 @@
 
 namespace space {
 namespace {
+
+/// Stands in a drawing for the id that the figure will get. No text holds it: XML forbids it.
+constexpr char figure_id_mark = '\x01';
 
 struct PaletteEntry {
     std::string_view name, light, dark;
@@ -160,13 +164,12 @@ std::string svg_opening(std::string_view figure_id, std::string_view title, doub
         xml_escaped(figure_id), w, h, xml_escaped(title), style_block(), svg_color(Ink::paper));
 }
 
-Svg::Svg(std::string figure_id, std::string title, double width, double height)
-    : figure_id_(std::move(figure_id)), title_(std::move(title)), width_(width), height_(height) {}
+Svg::Svg(std::string title, double width, double height)
+    : title_(std::move(title)), width_(width), height_(height) {}
 
 void Svg::element(std::string_view tag, const std::string& attributes, std::string_view id) {
     body_ += fmt::format("<{}", tag);
-    if (!id.empty())
-        body_ += fmt::format(" id=\"{}-{}\"", xml_escaped(figure_id_), xml_escaped(id));
+    if (!id.empty()) body_ += fmt::format(" id=\"{}-{}\"", figure_id_mark, xml_escaped(id));
     body_ += attributes + "/>\n";
 }
 
@@ -219,8 +222,7 @@ void Svg::circle(Point2 centre, double radius, const Style& style, std::string_v
 void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::string_view id) {
     constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
     body_ += "<text";
-    if (!id.empty())
-        body_ += fmt::format(" id=\"{}-{}\"", xml_escaped(figure_id_), xml_escaped(id));
+    if (!id.empty()) body_ += fmt::format(" id=\"{}-{}\"", figure_id_mark, xml_escaped(id));
     body_ += fmt::format(
         " x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" "
         "fill=\"{}\"",
@@ -232,7 +234,7 @@ void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::st
 }
 
 void Svg::begin_group(std::string_view id) {
-    body_ += fmt::format("<g id=\"{}-{}\">\n", xml_escaped(figure_id_), xml_escaped(id));
+    body_ += fmt::format("<g id=\"{}-{}\">\n", figure_id_mark, xml_escaped(id));
     ++open_groups_;
 }
 
@@ -261,9 +263,12 @@ void Svg::picture(Point2 corner, Vector2 size, const Image& image, std::string_v
         id);
 }
 
-std::string Svg::document() const {
+std::string Svg::document(std::string_view figure_id) const {
     if (open_groups_ != 0) throw std::logic_error("svg: begin_group without end_group");
-    return svg_opening(figure_id_, title_, width_, height_) + body_ + "</svg>\n";
+    std::string result = svg_opening(figure_id, title_, width_, height_);
+    for (const char c : body_)
+        result += c == figure_id_mark ? xml_escaped(figure_id) : std::string(1, c);
+    return result + "</svg>\n";
 }
 
 }  // namespace space

@@ -25,6 +25,13 @@ class Image;
 /// greys. Yellow, sky and orange are for areas and lines: as text they are too pale.
 enum class Ink { ink, paper, quiet, faint, blue, orange, green, vermillion, sky, yellow, purple };
 
+inline Point2 at(double x, double y) {
+    return Point2(glm::dvec2(x, y));
+}
+inline Point2 moved(const Point2& p, double x, double y) {
+    return p + at(x, y);
+}
+
 /// Lines of every drawing and chart, in drawing units.
 inline constexpr double line_weight = 2.0;
 
@@ -49,12 +56,12 @@ struct TextStyle {
     bool halo = false;  ///< a rim in the colour of the paper, for text over lines
 };
 
-/// Drawing units with y *downwards*, as in SVG; a drawing is about 640 units wide. An id may be
-/// empty; others are written as FIGURE-id, unique in a page of many figures.
+/// Drawing units with y *downwards*, as in SVG; a drawing is about 640 units wide. An element's id
+/// may be empty; others are written as FIGURE-id, unique in a page of many figures.
 class Svg {
   public:
     /// The title is read aloud in place of the drawing: one sentence that says what it shows.
-    Svg(std::string figure_id, std::string title, double width, double height);
+    Svg(std::string title, double width, double height);
 
     void line(Point2 a, Point2 b, const Style& style = {}, std::string_view id = {});
     void polyline(const std::vector<Point2>& points, const Style& style = {},
@@ -79,13 +86,13 @@ class Svg {
     /// Pixels as an embedded PNG; drawn twice as large or larger, as squares with sharp sides.
     void picture(Point2 corner, Vector2 size, const Image& image, std::string_view id = {});
 
-    std::string document() const;
+    std::string document(std::string_view figure_id) const;
 
   private:
     void element(std::string_view tag, const std::string& attributes, std::string_view id);
     void arrow_head(Point2 from, Point2 tip, const Style& style);
 
-    std::string figure_id_, title_, body_;
+    std::string title_, body_;
     double width_, height_;
     int open_groups_ = 0;
 };

@@ -17,7 +17,7 @@ const Camera square_camera{.eye = {0, 0, 0}, .target = {0, 0, -1}, .field_of_vie
 
 DepthBuffer draw(std::initializer_list<Triangle> triangles, int size = 16,
                  const Camera& camera = square_camera) {
-    Rasteriser rasteriser(camera, size, size);
+    Rasteriser rasteriser({camera, size, size});
     std::uint32_t index = 0;
     for (const Triangle& triangle : triangles) rasteriser.draw(triangle, index++);
     return rasteriser.buffer();
@@ -46,12 +46,11 @@ TEST_CASE("the pixels of a triangle are those whose centre lies in it, its sides
 TEST_CASE("depth and barycentric coordinates are those of the ray through the pixel's centre") {
     const Triangle slanted{{-3, -2, -2}, {4, -1, -9}, {0, 5, -4}};
     const DepthBuffer buffer = draw({slanted}, 64);
-    const CameraFrame frame(square_camera);
+    const PixelGrid grid(square_camera, 64, 64);
     int compared = 0;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
-            const auto hit = MollerTrumbore::intersect(
-                camera_ray(square_camera, frame, x + 0.5, y + 0.5, 64, 64), slanted);
+            const auto hit = MollerTrumbore::intersect(grid.ray(x, y), slanted);
             if (!hit || buffer.at(x, y).t == infinity) continue;
             ++compared;
             CHECK(buffer.at(x, y).t == Approx(hit->t).epsilon(1e-6));
@@ -113,7 +112,7 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
     // corners.
     Pcg32 random(5);
     for (int round = 0; round < 20; ++round) {
-        Rasteriser rasteriser(square_camera, 61, 61);
+        Rasteriser rasteriser({square_camera, 61, 61});
         const Point3 hub(random_point(random, Aabb2{Point2(-0.4f), Point2(0.4f)}), -1.0f);
         constexpr int corners = 23;
         std::vector<Point3> rim;
@@ -141,13 +140,13 @@ TEST_CASE("ray tracer and rasteriser differ only within the stated distance of a
         const Scene scene = make_scene(recipe.name, 1, true);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const Coverage coverage =
-            compare_coverage(scene, trace_depth(scene.camera, naive, width, height, 2),
+            compare_coverage(scene, trace_depth({scene.camera, width, height}, naive, 2),
                              rasterise(scene, width, height));
         INFO(recipe.name << ": " << coverage.disagree << " pixels disagree, farthest "
                          << coverage.farthest);
         CHECK(coverage.covered > 0);
         CHECK(coverage.unexplained == 0);
-        CHECK(coverage.farthest <= coverage_distance(scene.camera, width, height));
+        CHECK(coverage.farthest <= coverage_distance({scene.camera, width, height}));
         near_edge += coverage.near_edge;
     }
     CHECK(near_edge > 0);  // the comparison can see a difference at all
@@ -157,8 +156,8 @@ TEST_CASE("from inside a soup, with triangles on all sides of the eye, the rende
     Scene scene = make_scene("soup:500", 9);
     scene.camera.eye = bounds(scene.mesh).centroid();
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-    const Coverage coverage = compare_coverage(scene, trace_depth(scene.camera, naive, 120, 90, 2),
-                                               rasterise(scene, 120, 90));
+    const Coverage coverage = compare_coverage(
+        scene, trace_depth({scene.camera, 120, 90}, naive, 2), rasterise(scene, 120, 90));
     CHECK(coverage.covered > 1000);
     CHECK(coverage.unexplained == 0);
 }
@@ -166,7 +165,7 @@ TEST_CASE("from inside a soup, with triangles on all sides of the eye, the rende
 TEST_CASE("a pixel that is wrong far from every edge is found") {
     const Scene scene = make_scene("icosphere:4");
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-    const DepthBuffer traced = trace_depth(scene.camera, naive, 400, 400, 2);
+    const DepthBuffer traced = trace_depth({scene.camera, 400, 400}, naive, 2);
     DepthBuffer broken = rasterise(scene, 400, 400);
     broken.at(200, 200) = {};
     CHECK(compare_coverage(scene, traced, broken).unexplained == 1);
@@ -175,12 +174,12 @@ TEST_CASE("a pixel that is wrong far from every edge is found") {
 TEST_CASE("the rasterised picture is the ray-traced one without shadows") {
     const Scene scene = make_scene("icosphere:3");
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-    const CameraFrame frame(scene.camera);
+    const PixelGrid grid(scene.camera, 40, 30);
     const DepthBuffer buffer = rasterise(scene, 40, 30);
     const Image image = render_rasterised(scene, 40, 30);
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 40; ++x) {
-            const Ray ray = camera_ray(scene.camera, frame, x + 0.5, y + 0.5, 40, 30);
+            const Ray ray = grid.ray(x, y);
             const auto hit = closest_hit(naive, ray);
             if (!hit || hit->triangle != buffer.at(x, y).triangle) continue;
             const Color color = shade(scene, ray, *hit, [](const Ray&) { return true; });

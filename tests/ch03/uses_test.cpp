@@ -229,7 +229,7 @@ struct Differences {
 Differences compare_pictures(const BspTree<3>& tree, const Camera& camera,
                              const DepthBuffer& painted, const DepthBuffer& buffer) {
     const CameraFrame frame(camera);
-    const double limit = coverage_distance(camera, buffer.width, buffer.height);
+    const double limit = coverage_distance({camera, buffer.width, buffer.height});
     const double near = near_fraction * glm::distance(Double3(camera.eye), Double3(camera.target));
     Differences result;
     for (int y = 0; y < buffer.height; ++y)
@@ -292,7 +292,7 @@ TEST_CASE("the painter's picture is the z-buffer's, but for pixels at edges and 
                                      box.extent(),
                 .target = box.centroid(),
                 .field_of_view = 60};
-            Rasteriser rasteriser(camera, 2 * width, 2 * height);
+            Rasteriser rasteriser({camera, 2 * width, 2 * height});
             for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
                 rasteriser.draw(scene.triangles[i], i);
             const Differences d =
@@ -322,7 +322,7 @@ TEST_CASE("without cuts or in the wrong order the painter's picture is wrong") {
                                       {{1, -3, 0}, {1, 3, 1}, {0.5f, 3, 1}},
                                       {{2, 2, 0}, {-2, -2.5f, 1}, {-2.2f, -2, 1}}};
     const Camera camera{.eye = {0, 0, 9}, .target = {0, 0, 0}, .field_of_view = 45};
-    Rasteriser rasteriser(camera, 96, 72);
+    Rasteriser rasteriser({camera, 96, 72});
     for (std::uint32_t i = 0; i < 3; ++i) rasteriser.draw(cycle[i], i);
     const auto polygons = cycle;
     const BspTree<3> right = BspBuilder<3>::build(polygons),

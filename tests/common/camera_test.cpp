@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 
 #include <numbers>
+#include <vector>
 
 namespace space {
 namespace {
@@ -63,6 +64,22 @@ TEST_CASE("the same camera gives the same ray, bit for bit, from any frame made 
         for (int x = 0; x < 9; ++x)
             CHECK(camera_ray(camera, frame, x + 0.5, y + 0.5, 9, 7).direction ==
                   ray_at(camera, x + 0.5, y + 0.5, 9, 7).direction);
+}
+
+TEST_CASE("a grid's rays go through its pixels' centres, row by row from the top left") {
+    const Camera camera{{3, -4, 1}, {0.5f, 2, 7}, {0, 0, 1}, 30};
+    const PixelGrid grid(camera, 3, 2);
+    std::vector<Ray> expected;
+    for (const double y : {0.5, 1.5})
+        for (const double x : {0.5, 1.5, 2.5}) expected.push_back(ray_at(camera, x, y, 3, 2));
+    const std::vector<Ray> rays = camera_rays(grid);
+    REQUIRE(rays.size() == expected.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        CHECK(rays[i].origin == expected[i].origin);
+        CHECK(rays[i].direction == expected[i].direction);
+    }
+    CHECK(grid.ray(2, 1).direction == rays.back().direction);
+    CHECK(grid.ray_through(0.0, 2.0).direction == ray_at(camera, 0.0, 2.0, 3, 2).direction);
 }
 
 }  // namespace space

@@ -2,11 +2,14 @@
 #include "common/parallel.hpp"
 #include "common/program/error.hpp"
 #include "common/program/figure.hpp"
+#include "common/program/file.hpp"
 #include "common/program/progress.hpp"
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 
+#include <filesystem>
 #include <new>
+#include <set>
 
 namespace space {
 
@@ -32,32 +35,65 @@ TEST_CASE("an error that a user can cause becomes one line on stderr and its exi
 }
 
 namespace {
-std::string made;
-const std::vector<Figure> figures{
-    {"fig_00_01", FigureKind::drawing, [](const Options&) { made += "1"; }},
-    {"fig_00_02", FigureKind::chart, [](const Options&) { made += "2"; }}};
-int make(const std::string& id) {
-    made.clear();
+
+constexpr Figure figures[] = {
+    {"fig_00_01",
+     [](const Options&) {
+         Svg svg("A line", 10, 10);
+         svg.line({0, 0}, {1, 1}, {}, "line");
+         return svg;
+     }},
+    {"fig_00_02", [](const Options& options) { return Image(options.width, 1); }},
+    {"fig_00_03",
+     [](const Options&) {
+         return Chart{.title = "A point",
+                      .x_label = "x",
+                      .y_label = "y",
+                      .series = {{.name = "one", .x = {1}, .y = {2}}}};
+     }},
+};
+
+/// The files that are there when the figure has been made.
+std::set<std::string> made(const std::string& id, const TemporaryDirectory& directory) {
     Options options;
     options.figure = id;
-    return make_figures(figures, options);
+    options.out = directory.path();
+    CHECK(write_figures(figures, options) == 0);
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
+        files.insert(entry.path().filename().string());
+    return files;
 }
+
 }  // namespace
 
-TEST_CASE("a figure is made by its id, or all of them; an unknown id is refused with the list") {
-    CHECK(make("fig_00_02") == 0);
-    CHECK(made == "2");
-    CHECK(make("all") == 0);
-    CHECK(made == "12");
+TEST_CASE("a figure is made by its id, and its file is called by it") {
+    const TemporaryDirectory directory;
+    CHECK(made("fig_00_01", directory) == std::set<std::string>{"fig_00_01.svg"});
+    CHECK(read_file(directory / "fig_00_01.svg").find("id=\"fig_00_01-line\"") !=
+          std::string::npos);
+    CHECK(made("fig_00_02", directory) == std::set<std::string>{"fig_00_01.svg", "fig_00_02.png"});
+    made("fig_00_03", directory);
+    CHECK(read_file(directory / "fig_00_03.csv").starts_with("# fig_00_03: A point\n"));
+}
+
+TEST_CASE("all figures are made for \"all\"; an unknown id is refused with the list") {
+    const TemporaryDirectory directory;
+    const std::set<std::string> all = made("all", directory);
+    for (const char* file : {"fig_00_01.svg", "fig_00_02.png", "fig_00_03.csv"})
+        CHECK(all.contains(file));
+    Options options;
+    options.figure = "fig_00_04";
+    options.out = directory.path() / "none";
     try {
-        make("fig_00_03");
+        write_figures(figures, options);
         FAIL("no error");
     } catch (const Error& error) {
         CHECK(error.code() == ExitCode::usage);
         CHECK(std::string(error.what()) ==
-              "--figure fig_00_03: no such figure; there are: fig_00_01 fig_00_02 all");
+              "--figure fig_00_04: no such figure; there are: fig_00_01 fig_00_02 fig_00_03 all");
     }
-    CHECK(made.empty());
+    CHECK_FALSE(exists(options.out));
 }
 
 TEST_CASE("progress of a short job writes nothing, and steps may come from many threads") {

@@ -3,9 +3,8 @@
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/svg.hpp"
+#include "common/program/temporary.hpp"
 #include "tests/catch.hpp"
-
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -19,13 +18,6 @@ namespace {
 bool contains(const std::string& text, std::string_view part) {
     return text.find(part) != text.npos;
 }
-
-/// A directory for one test.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("chart_test_" + std::to_string(::getpid()));
-    Folder() { fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
-};
 
 /// $PATH for as long as the test runs.
 struct Path {
@@ -94,9 +86,9 @@ TEST_CASE("a chart has the drawings' palette, style and ids") {
         WARN("skipped: gnuplot is not installed");
         return;
     }
-    const Folder folder;
-    write_chart(folder.path, growth());
-    const std::string svg = read_file(folder.path / "fig_99_01.svg");
+    const TemporaryDirectory folder;
+    write_chart(folder.path(), growth());
+    const std::string svg = read_file(folder.path() / "fig_99_01.svg");
     CHECK(svg.starts_with(svg_opening("fig_99_01", "Time against triangles", 640, 420)));
     CHECK(svg.ends_with("</svg>\n"));
     for (const char* text :
@@ -115,16 +107,16 @@ TEST_CASE("text in a chart is text: not a script, not markup") {
         WARN("skipped: gnuplot is not installed");
         return;
     }
-    const Folder folder;
-    const fs::path trace = folder.path / "trace";
+    const TemporaryDirectory folder;
+    const fs::path trace = folder.path() / "trace";
     Chart chart = growth();
     chart.x_label = "'; system('touch " + trace.string() + "') #";
     chart.y_label = "`touch " + trace.string() + "` @GPVAL $HOME";
     chart.series[0].name = "a\nsystem('touch " + trace.string() + "')";
     chart.series[1].name = "<b> & {/=30 big} x_1 \\n";
-    write_chart(folder.path, chart);
+    write_chart(folder.path(), chart);
     CHECK_FALSE(fs::exists(trace));
-    const std::string svg = read_file(folder.path / "fig_99_01.svg");
+    const std::string svg = read_file(folder.path() / "fig_99_01.svg");
     CHECK(contains(svg, ">&lt;b> &amp; {/=30 big} x_1 \\n</text>"));
     CHECK(contains(svg, "` @GPVAL $HOME</text>"));
 }
@@ -134,31 +126,33 @@ TEST_CASE("points that an axis cannot show are left out; no point at all is an e
         WARN("skipped: gnuplot is not installed");
         return;
     }
-    const Folder folder;
+    const TemporaryDirectory folder;
     Chart chart = growth();
     chart.series[0].y = {0.0, std::numeric_limits<double>::quiet_NaN()};
-    CHECK_NOTHROW(write_chart(folder.path, chart));
+    CHECK_NOTHROW(write_chart(folder.path(), chart));
     chart.series.pop_back();
-    CHECK_THROWS_WITH(write_chart(folder.path, chart), "fig_99_01.svg: there is no point to draw");
+    CHECK_THROWS_WITH(write_chart(folder.path(), chart),
+                      "fig_99_01.svg: there is no point to draw");
 }
 
 TEST_CASE("without gnuplot there is the data file alone") {
-    const Folder folder;
+    const TemporaryDirectory folder;
     {
-        const Path nowhere(folder.path / "nothing");
-        CHECK_NOTHROW(write_chart(folder.path, growth()));
+        const Path nowhere(folder.path() / "nothing");
+        CHECK_NOTHROW(write_chart(folder.path(), growth()));
     }
-    CHECK(fs::exists(folder.path / "fig_99_01.csv"));
-    CHECK_FALSE(fs::exists(folder.path / "fig_99_01.svg"));
+    CHECK(fs::exists(folder.path() / "fig_99_01.csv"));
+    CHECK_FALSE(fs::exists(folder.path() / "fig_99_01.svg"));
 }
 
 TEST_CASE("a gnuplot that fails is an error with its reason, and leaves no picture") {
-    const Folder folder;
-    const Path path(folder.path);
-    make_program(folder.path / "gnuplot", "echo '\"chart.gp\" line 3: undefined moon' >&2; exit 1");
-    CHECK_THROWS_WITH(write_chart(folder.path, growth()),
+    const TemporaryDirectory folder;
+    const Path path(folder.path());
+    make_program(folder.path() / "gnuplot",
+                 "echo '\"chart.gp\" line 3: undefined moon' >&2; exit 1");
+    CHECK_THROWS_WITH(write_chart(folder.path(), growth()),
                       "fig_99_01.svg: gnuplot failed: \"chart.gp\" line 3: undefined moon");
-    make_program(folder.path / "gnuplot", "echo not a picture");
-    CHECK_THROWS_AS(write_chart(folder.path, growth()), Error);
-    CHECK_FALSE(fs::exists(folder.path / "fig_99_01.svg"));
+    make_program(folder.path() / "gnuplot", "echo not a picture");
+    CHECK_THROWS_AS(write_chart(folder.path(), growth()), Error);
+    CHECK_FALSE(fs::exists(folder.path() / "fig_99_01.svg"));
 }

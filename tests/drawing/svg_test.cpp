@@ -1,7 +1,7 @@
 #include "common/program/svg.hpp"
-#include "common/program/xml.hpp"
 
 #include "common/program/image.hpp"
+#include "common/program/xml.hpp"
 #include "tests/catch.hpp"
 
 #include <cmath>
@@ -53,26 +53,26 @@ TEST_CASE("text cannot break out of its element") {
     CHECK(xml_escaped("bell\x07") == "bell\uFFFD");
     CHECK(xml_escaped("säteenjäljitys") == "säteenjäljitys");
 
-    Svg svg("f", "<script>", 10, 10);
+    Svg svg("<script>", 10, 10);
     svg.text({0, 0}, "*<t>*_<", {}, "a\"b");
-    const std::string document = svg.document();
+    const std::string document = svg.document("f");
     CHECK(contains(document, "&lt;script&gt;</title>"));
     CHECK(contains(document, "<tspan class=\"italic\">&lt;t&gt;</tspan>"));
     CHECK(contains(document, "id=\"f-a&quot;b\""));
 }
 
 TEST_CASE("markup: italics, subscripts, and back to the base line") {
-    Svg svg("f", "", 10, 10);
+    Svg svg("", 10, 10);
     svg.text({0, 0}, "*t*_{min} to *t*_1", {.size = 20});
     CHECK(contains(
-        svg.document(),
+        svg.document("f"),
         "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">min</tspan><tspan "
         "dy=\"-5\"> to </tspan>"
         "<tspan class=\"italic\">t</tspan><tspan font-size=\"15\" dy=\"5\">1</tspan></text>"));
 }
 
 TEST_CASE("every id carries the figure's, so that many figures can stand in one page") {
-    Svg svg("fig_09_01", "title", 640, 400);
+    Svg svg("title", 640, 400);
     svg.begin_group("rays");
     svg.line({0, 0}, {1, 1}, {.arrow = true}, "first");
     svg.end_group();
@@ -81,7 +81,7 @@ TEST_CASE("every id carries the figure's, so that many figures can stand in one 
     svg.polygon({{0, 0}, {1, 0}, {0, 1}}, {}, "triangle");
     svg.text({0, 0}, "x", {}, "name");
     svg.picture({0, 0}, {1, 1}, Image(1, 1), "pixels");
-    const std::string document = svg.document();
+    const std::string document = svg.document("fig_09_01");
     CHECK(count(document, " id=\"fig_09_01") == count(document, " id=\""));
     for (const char* id : {"rays", "first", "box", "ball", "triangle", "name", "pixels"})
         CHECK(contains(document, std::string("id=\"fig_09_01-") + id + '"'));
@@ -89,9 +89,9 @@ TEST_CASE("every id carries the figure's, so that many figures can stand in one 
 
 TEST_CASE("every colour of an element is one that the style block maps to a variable") {
     for (int ink = 0; ink < 11; ++ink) {
-        Svg svg("f", "", 10, 10);
+        Svg svg("", 10, 10);
         svg.rect({0, 0}, {1, 1}, {.stroke = static_cast<Ink>(ink), .fill = static_cast<Ink>(ink)});
-        const std::string document = svg.document();
+        const std::string document = svg.document("f");
         const std::string color(svg_color(static_cast<Ink>(ink)));
         CHECK(contains(document, "[stroke=\"" + color + "\"]{stroke:var(--"));
         CHECK(contains(document, "[fill=\"" + color + "\"]{fill:var(--"));
@@ -102,7 +102,7 @@ TEST_CASE("every colour of an element is one that the style block maps to a vari
 TEST_CASE(
     "the page's light or dark class wins over the system's setting, and styles stay inside the "
     "figure") {
-    const std::string document = Svg("f", "", 10, 10).document();
+    const std::string document = Svg("", 10, 10).document("f");
     const auto system = document.find("@media (prefers-color-scheme:dark){svg.book-figure{");
     const auto light = document.find("html.light-mode svg.book-figure{");
     const auto dark = document.find("html.dark-mode svg.book-figure{");
@@ -115,23 +115,23 @@ TEST_CASE(
 }
 
 TEST_CASE("an arrow ends in a head whose tip is the line's end") {
-    Svg svg("f", "", 100, 100);
+    Svg svg("", 100, 100);
     svg.line({0, 50}, {100, 50}, {.stroke = Ink::blue, .arrow = true});
-    CHECK(contains(svg.document(), "<polyline points=\"0,50 90.4,50\""));
-    CHECK(
-        contains(svg.document(), "<polygon points=\"100,50 88,54.5 88,45.5\" fill=\"#0072b2\"/>"));
+    CHECK(contains(svg.document("f"), "<polyline points=\"0,50 90.4,50\""));
+    CHECK(contains(svg.document("f"),
+                   "<polygon points=\"100,50 88,54.5 88,45.5\" fill=\"#0072b2\"/>"));
 
     Svg point("f", "", 100, 100);
     point.line({5, 5}, {5, 5}, {.arrow = true});  // no direction: no head, and no NaN
-    CHECK(count(point.document(), "<polygon") == 0);
+    CHECK(count(point.document("f"), "<polygon") == 0);
 }
 
 TEST_CASE("a picture is the PNG file of the image, in base64") {
     for (int width = 1; width <= 3; ++width) {  // lengths with different remainders
         const Image image(width, 1);
-        Svg svg("f", "", 10, 10);
+        Svg svg("", 10, 10);
         svg.picture({1, 2}, {3, 4}, image);
-        const std::string document = svg.document();
+        const std::string document = svg.document("f");
         const std::string before = "href=\"data:image/png;base64,";
         REQUIRE(contains(document, before));
         const std::size_t from = document.find(before) + before.size();
@@ -141,23 +141,23 @@ TEST_CASE("a picture is the PNG file of the image, in base64") {
 
 TEST_CASE("the same calls give the same bytes") {
     const auto draw = [] {
-        Svg svg("f", "title", 640, 400);
+        Svg svg("title", 640, 400);
         for (int i = 0; i < 100; ++i)
             svg.circle({320.0f + 100.0f * std::cos(0.1f * static_cast<float>(i)),
                         0.333f * static_cast<float>(i)},
                        3);
-        return svg.document();
+        return svg.document("f");
     };
     CHECK(draw() == draw());
 }
 
 TEST_CASE("of steps, those that end before the drawing does are hidden where no script runs") {
-    Svg svg("fig_99_01", "Steps", 10, 10);
+    Svg svg("Steps", 10, 10);
     svg.begin_step(0, 1, "a < b");
     svg.end_group();
     svg.begin_step(2);
     svg.end_group();
-    const std::string text = svg.document();
+    const std::string text = svg.document("f");
     CHECK(
         text.find(
             "<g data-first=\"0\" data-last=\"1\" display=\"none\">\n<desc>a &lt; b</desc>\n</g>") !=
@@ -168,7 +168,7 @@ TEST_CASE("of steps, those that end before the drawing does are hidden where no 
 TEST_CASE("a group that is not closed, or not open, is a fault that shows") {
     Svg open("f", "", 1, 1);
     open.begin_group("g");
-    CHECK_THROWS_AS(open.document(), std::logic_error);
+    CHECK_THROWS_AS(open.document("f"), std::logic_error);
     Svg closed("f", "", 1, 1);
     CHECK_THROWS_AS(closed.end_group(), std::logic_error);
 }

@@ -38,7 +38,7 @@ std::optional<Hit> answer(const HitRecord& record) {
 /// stands for those that are called NAME-VARIANT.
 void require_agreement(const std::string& mesh_option, std::span<const Triangle> triangles,
                        std::size_t count, bool variants = true) {
-    const TemporaryDirectory bench;
+    const Workbench bench;
     RayMaker maker(triangles, 2024);
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) ray = maker.random().ray;

@@ -67,8 +67,6 @@ struct Command {
     }
 };
 
-=======
->>>>>>> 739baf8 (One temporary directory, one XML escape)
 struct Ended {
     int code;  ///< exit code; 128 + signal for a program that was killed
     std::string out, err;

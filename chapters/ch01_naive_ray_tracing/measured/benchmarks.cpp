@@ -17,19 +17,10 @@ Scene soup(benchmark::State& state) {
     return make_scene("soup:" + std::to_string(state.range(0)));
 }
 
-std::vector<Ray> camera_rays(const Scene& scene) {
-    const CameraFrame frame(scene.camera);
-    std::vector<Ray> rays;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            rays.push_back(camera_ray(scene.camera, frame, x + 0.5, y + 0.5, side, side));
-    return rays;
-}
-
 void moller_trumbore(benchmark::State& state) {
     const Scene scene = make_scene("soup:1024");
     const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const std::vector<Ray> rays = camera_rays(scene);
+    const std::vector<Ray> rays = camera_rays({scene.camera, side, side});
     std::size_t i = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(
@@ -43,7 +34,7 @@ template <bool any>
 void naive(benchmark::State& state) {
     const Scene scene = soup(state);
     const Naive<> naive = Naive<>::build(scene.mesh.triangles());
-    const std::vector<Ray> rays = camera_rays(scene);
+    const std::vector<Ray> rays = camera_rays({scene.camera, side, side});
     std::size_t i = 0;
     for (auto _ : state) {
         const Ray& ray = rays[i++ % rays.size()];

@@ -31,7 +31,6 @@ ShareSlopes share_slopes(const std::vector<SharePoint>& shares, const std::strin
 
 Chart growth_chart(const std::vector<GrowthPoint>& growth) {
     Chart chart{
-        .id = "fig_01_06",
         .title = "Time per pixel against the number of triangles, naive ray tracer and rasteriser",
         .x_label = "triangles",
         .y_label = "time per pixel in µs",
@@ -61,7 +60,6 @@ Chart growth_chart(const std::vector<GrowthPoint>& growth) {
 
 Chart share_chart(const std::vector<SharePoint>& shares) {
     Chart chart{
-        .id = "fig_01_07",
         .title = "The part of the time that is not spent in intersection tests, against triangles",
         .x_label = "triangles",
         .y_label = "time not in intersection tests, %",
@@ -83,8 +81,7 @@ Chart accuracy_chart(const VertexLeaks& leaks) {
     const auto per_10000 = [&](std::uint64_t count) {
         return 1e4 * static_cast<double>(count) / static_cast<double>(leaks.rays);
     };
-    return {.id = "fig_01_08",
-            .title = "Time and leaks of the same ray-triangle test in float and in double",
+    return {.title = "Time and leaks of the same ray-triangle test in float and in double",
             .x_label = "rays of 10,000 aimed at vertices that slip through",
             .y_label = "time (double = 1)",
             .kind = ChartKind::points,

@@ -5,19 +5,6 @@
 #include <algorithm>
 
 namespace space::ch01 {
-namespace {
-
-/// confirmed where all scenes agree, refuted where none does.
-Verdict over_scenes(std::size_t agree, std::size_t scenes) {
-    return agree == scenes ? Verdict::confirmed : agree == 0 ? Verdict::refuted : Verdict::depends;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
-}  // namespace
-
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
     const auto& [counts, leaks, growth, shares] = measured;
     const auto linear = [](double slope) { return slope >= 0.9 && slope <= 1.1; };
@@ -76,7 +63,7 @@ std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
     const bool flips = winding.flipped == winding.triangles && winding.kept == winding.triangles;
 
     return {
-        {"H1", over_scenes(naive_linear, grown.size()),
+        {"H1", verdict_of(naive_linear, grown.size()),
          fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
          "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on "
          "every scene, refuted "
@@ -102,14 +89,14 @@ std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
                      with_commas(winding.triangles), with_commas(winding.flipped),
                      with_commas(winding.kept)),
          joined(counted), "confirmed if all triangles do both"},
-        {"H14", over_scenes(erasing, counts.size()),
+        {"H14", verdict_of(erasing, counts.size()),
          fmt::format("of {} pixels that hit something {} still show it as printed, {} with the "
                      "triangles in reverse order",
                      with_commas(hits), with_commas(printed), with_commas(reversed)),
          joined(counted),
          "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, "
          "refuted if on none"},
-        {"P1", over_scenes(rasteriser_linear, grown.size()),
+        {"P1", verdict_of(rasteriser_linear, grown.size()),
          fmt::format("log-log slopes between the two largest sizes: {}", joined(rasteriser_slopes)),
          range,
          "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is "

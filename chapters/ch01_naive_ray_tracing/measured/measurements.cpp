@@ -52,13 +52,13 @@ std::vector<Measured> series(std::size_t small_sizes, std::size_t large_sizes) {
     return measured;
 }
 
-int rounds(Effort effort) {
-    return effort == Effort::full ? 5 : 3;
+int rounds(Amount amount) {
+    return amount == Amount::full ? 5 : 3;
 }
 
 /// How often one run repeats its work, so that it takes some milliseconds with few triangles too.
-int repeats_for(Effort effort, int work, double triangles) {
-    return effort == Effort::small ? 1 : std::max(1, static_cast<int>(work / triangles));
+int repeats_for(Amount amount, int work, double triangles) {
+    return amount == Amount::small ? 1 : std::max(1, static_cast<int>(work / triangles));
 }
 
 Winding check_winding(std::span<const Triangle> triangles) {
@@ -142,10 +142,6 @@ std::vector<RayAtVertex> rays_at_vertices(const TriangleMesh& sphere, std::size_
 
 }  // namespace
 
-Effort effort_of(const Options& options) {
-    return options.small ? Effort::small : options.quick ? Effort::quick : Effort::full;
-}
-
 Scene in_reverse(Scene scene) {
     std::reverse(scene.mesh.faces.begin(), scene.mesh.faces.end());
     std::reverse(scene.colors.begin(), scene.colors.end());
@@ -166,7 +162,7 @@ std::vector<SceneCounts> count_scenes(const Options& options) {
         const Scene reversed = in_reverse(scene);
         const RenderCounts counts = render(scene, naive, settings).counts;
         const Coverage coverage = compare_coverage(
-            scene, trace_depth(scene.camera, naive, width, height, options.threads),
+            scene, trace_depth({scene.camera, width, height}, naive, options.threads),
             rasterise(scene, width, height));
         all.push_back(
             {.scene = name,
@@ -204,7 +200,7 @@ std::vector<char> leaks(std::span<const Triangle> triangles, std::span<const Ray
 }  // namespace
 
 VertexLeaks measure_leaks(const Options& options) {
-    const bool full = effort_of(options) == Effort::full;
+    const bool full = options.amount() == Amount::full;
     const Scene scene = make_scene("icosphere:12");
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const std::vector<RayAtVertex> rays =
@@ -229,10 +225,10 @@ VertexLeaks measure_leaks(const Options& options) {
 }
 
 std::vector<GrowthPoint> measure_growth(const Options& options) {
-    const Effort effort = effort_of(options);
+    const Amount amount = options.amount();
     constexpr int naive_width = 8, naive_height = 6, width = 160, height = 120;
-    const std::vector<Measured> scenes = effort == Effort::small   ? series(2, 0)
-                                         : effort == Effort::quick ? series(0, 3)
+    const std::vector<Measured> scenes = amount == Amount::small   ? series(2, 0)
+                                         : amount == Amount::quick ? series(0, 3)
                                                                    : series(0, 4);
     std::vector<GrowthPoint> growth;
     Progress progress("time against triangles", scenes.size());
@@ -240,7 +236,7 @@ std::vector<GrowthPoint> measure_growth(const Options& options) {
         const Scene scene = make_scene(measured.spec, options.seed);
         const Naive<> naive = Naive<>::build(scene.mesh.triangles());
         const auto triangles = static_cast<double>(scene.mesh.faces.size());
-        const int repeats = repeats_for(effort, 20'000, triangles);
+        const int repeats = repeats_for(amount, 20'000, triangles);
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i)
@@ -252,7 +248,7 @@ std::vector<GrowthPoint> measure_growth(const Options& options) {
                 for (int i = 0; i < repeats; ++i)
                     do_not_optimize(rasterise(scene, width, height).pixels);
             }};
-        const std::vector<double> ms = interleaved_medians(candidates, rounds(effort));
+        const std::vector<double> ms = interleaved_medians(candidates, rounds(amount));
         growth.push_back({.scene = measured.name,
                           .triangles = triangles,
                           .naive_us = 1000.0 * ms[0] / (repeats * naive_width * naive_height),
@@ -263,12 +259,12 @@ std::vector<GrowthPoint> measure_growth(const Options& options) {
 }
 
 std::vector<SharePoint> measure_shares(const Options& options) {
-    const Effort effort = effort_of(options);
+    const Amount amount = options.amount();
     constexpr int width = 20, height = 15;
-    const std::vector<Measured> scenes = effort == Effort::small   ? series(2, 0)
-                                         : effort == Effort::quick ? series(3, 0)
+    const std::vector<Measured> scenes = amount == Amount::small   ? series(2, 0)
+                                         : amount == Amount::quick ? series(3, 0)
                                                                    : series(2, 2);
-    const int rest_repeats = effort == Effort::small ? 1 : 100;  // some microseconds each
+    const int rest_repeats = amount == Amount::small ? 1 : 100;  // some microseconds each
     std::vector<SharePoint> shares;
     Progress progress("share of time in intersection tests", scenes.size());
     for (const Measured& measured : scenes) {
@@ -278,7 +274,7 @@ std::vector<SharePoint> measure_shares(const Options& options) {
         Record record;
         render<NoCounts>(scene, Recorder{naive, record}, settings);
         const auto triangles = static_cast<double>(scene.mesh.faces.size());
-        const int repeats = repeats_for(effort, 1'000, triangles);
+        const int repeats = repeats_for(amount, 1'000, triangles);
         const std::array<std::function<void()>, 2> candidates{
             [&] {
                 for (int i = 0; i < repeats; ++i) {
@@ -290,7 +286,7 @@ std::vector<SharePoint> measure_shares(const Options& options) {
                 for (int i = 0; i < rest_repeats; ++i)
                     do_not_optimize(render<NoCounts>(scene, Player{record}, settings).image);
             }};
-        const std::vector<double> ms = interleaved_medians(candidates, 2 * rounds(effort) + 1);
+        const std::vector<double> ms = interleaved_medians(candidates, 2 * rounds(amount) + 1);
         shares.push_back({measured.name, triangles, ms[0] / repeats, ms[1] / rest_repeats});
         progress.step();
     }
@@ -298,10 +294,11 @@ std::vector<SharePoint> measure_shares(const Options& options) {
 }
 
 Measurements measure(const Options& options) {
-    Measurements measured{.counts = count_scenes(options), .leaks = measure_leaks(options)};
+    Measurements measured{.counts = count_scenes(options),
+                          .leaks = measured_once<measure_leaks>(options)};
     if (options.counts) return measured;
-    measured.growth = measure_growth(options);
-    measured.shares = measure_shares(options);
+    measured.growth = measured_once<measure_growth>(options);
+    measured.shares = measured_once<measure_shares>(options);
     return measured;
 }
 

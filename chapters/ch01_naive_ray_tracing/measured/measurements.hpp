@@ -8,10 +8,6 @@
 
 namespace space::ch01 {
 
-/// How many sizes and rounds a measurement takes: for tests, for a look, for the book.
-enum class Effort { small, quick, full };
-Effort effort_of(const Options& options);
-
 /// The scene with its triangles listed from the last to the first.
 Scene in_reverse(Scene scene);
 

@@ -22,11 +22,11 @@ struct ShareSlopes {
 };
 ShareSlopes share_slopes(const std::vector<SharePoint>& shares, const std::string& scene);
 
-/// fig_01_06: time per pixel against triangles, both renderers, two of the scenes.
+/// Time per pixel against triangles, both renderers, two of the scenes.
 Chart growth_chart(const std::vector<GrowthPoint>& growth);
-/// fig_01_07: the part of the time that is not spent in intersection tests, against triangles.
+/// The part of the time that is not spent in intersection tests, against triangles.
 Chart share_chart(const std::vector<SharePoint>& shares);
-/// fig_01_08: the time of the same test in float and in double, and how many rays slip through.
+/// The time of the same test in float and in double, and how many rays slip through.
 Chart accuracy_chart(const VertexLeaks& leaks);
 
 /// The answers to H1, H2, H3, H14 and P1.

@@ -40,8 +40,7 @@ Chart triangle_chart(const Measurements& measured) {
                                   : named.name == "lichter-improved" ? "lichter"
                                                                      : named.name);
     });
-    return {.id = "fig_02_11",
-            .title =
+    return {.title =
                 "Nanoseconds per ray-triangle test against leaks through the edges and vertices of "
                 "a closed mesh",
             .x_label = "ns per test (median of six inputs)",
@@ -53,8 +52,7 @@ Chart triangle_chart(const Measurements& measured) {
 }
 
 Chart root_chart(const Measurements& measured) {
-    Chart chart{.id = "fig_02_12",
-                .title =
+    Chart chart{.title =
                     "Nanoseconds per square root against the worst error, for 0 to 4 rounds of "
                     "Newton's method",
                 .x_label = "ns per root; labels: rounds of Newton's method",
@@ -102,8 +100,7 @@ Chart box_chart(const Measurements& measured) {
                 missed.labels.push_back(timed.test);
             }
     }
-    return {.id = "fig_02_13",
-            .title =
+    return {.title =
                 "Nanoseconds per ray-box test against boxes that are missed although they are hit, "
                 "at corners, edges and faces",
             .x_label = "ns per test (hits that nobody can predict)",
@@ -115,7 +112,6 @@ Chart box_chart(const Measurements& measured) {
 
 Chart sphere_chart(const Measurements& measured) {
     Chart chart{
-        .id = "fig_02_14",
         .title =
             "Wrong decisions about a sphere of radius 1 against the distance of the ray's origin",
         .x_label = "distance in radii",

@@ -3,7 +3,6 @@
 #include "common/program/report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -26,10 +25,6 @@ constexpr RootTable root_tables[] = {{2, 555927, 764, 209938, 213, 232},
 /// by less.
 constexpr double plausible_ratio = 10.0;
 
-Verdict over(std::size_t agree, std::size_t all) {
-    return agree == all ? Verdict::confirmed : agree == 0 ? Verdict::refuted : Verdict::depends;
-}
-
 double root_ns(const Measurements& measured, const std::string& form) {
     for (const TimedRoot& timed : measured.root_times)
         if (timed.test == form) return timed.ns;
@@ -51,10 +46,6 @@ Gains lichter_gains(const Measurements& measured, std::string_view variant) {
     return gains;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
 void answer_triangles(const Measurements& measured, std::vector<ClaimAnswer>& answers) {
     const std::string scene =
         "leaves of eight triangles, random ones and those of five scenes; rays from all sides, the "
@@ -74,7 +65,7 @@ void answer_triangles(const Measurements& measured, std::vector<ClaimAnswer>& an
     std::size_t roots_win = 0;
     for (std::size_t i = 0; i < roots.percent.size(); ++i)
         roots_win += roots.percent[i] > exit.percent[i];
-    answers.push_back({"L2", over(roots_win, roots.percent.size()),
+    answers.push_back({"L2", verdict_of(roots_win, roots.percent.size()),
                        fmt::format("two roots for three, and nothing else, gain {:.0f} % (median), "
                                    "early exit with three roots "
                                    "{:.0f} %, both together {:.0f} %",
@@ -112,7 +103,7 @@ void answer_roots(const Measurements& measured, std::vector<ClaimAnswer>& answer
         faster += four < one;
     }
     answers.push_back(
-        {"L4", over(faster, ratios.size()),
+        {"L4", verdict_of(faster, ratios.size()),
          fmt::format("four in a vector are faster than one after the other: {}; the processor's "
                      "own root of four "
                      "takes {:.2f} ns a root, Newton's with two rounds {:.2f}",
@@ -198,13 +189,13 @@ void answer_branches(const Measurements& measured, std::vector<ClaimAnswer>& ans
     }
     const std::size_t all = measured.pattern_times.size();
     answers.push_back(
-        {"O4", over(branchless_wins, all),
+        {"O4", verdict_of(branchless_wins, all),
          fmt::format("time of the branchless box test over that of the branching one: {}",
                      joined(branchless)),
          "64 rays and 512 boxes of three kinds",
          "confirmed if min/max is faster on inputs that hit, that miss, and that nobody can "
          "predict, refuted if on none"});
-    answers.push_back({"O5", over(cheap_wins, all),
+    answers.push_back({"O5", verdict_of(cheap_wins, all),
                        fmt::format("time of the expensive test first, and of one decision at the "
                                    "end, over that of the cheap test first: {}",
                                    joined(orders)),
@@ -212,7 +203,7 @@ void answer_branches(const Measurements& measured, std::vector<ClaimAnswer>& ans
                        "confirmed if cheap tests first take at most 1.05 times the fastest order "
                        "on each kind, refuted if on none"});
     answers.push_back(
-        {"O12", over(reciprocal_wins, all),
+        {"O12", verdict_of(reciprocal_wins, all),
          fmt::format("time with the reciprocal over time with divisions: {}", joined(reciprocal)),
          "64 rays and 512 boxes of three kinds; the reciprocal once per ray",
          "confirmed if the reciprocal is faster on each kind, refuted if on none"});

@@ -4,42 +4,48 @@
 #include "common/program/progress.hpp"
 #include "common/scene.hpp"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace space::ch02 {
 
-Amounts amounts(const Options& options) {
-    if (options.small)
-        return {.pairs = 4096,
-                .leak_rays = 4096,
-                .root_stride = 1021,
-                .root_samples = 64,
-                .boxes = 20'000,
-                .spheres = 4096,
-                .bounces = 1000,
-                .rounds = 1};
-    if (options.quick)
-        return {.pairs = 100'000,
-                .leak_rays = 100'000,
-                .root_stride = 17,
-                .root_samples = 1000,
-                .boxes = 1'000'000,
-                .spheres = 50'000,
-                .bounces = 100'000,
-                .rounds = 15};
-    return {.pairs = 1'000'000,
-            .leak_rays = 1'000'000,
-            .root_stride = 1,
-            .root_samples = 20'000,
-            .boxes = 10'000'000,
-            .spheres = 200'000,
-            .bounces = 1'000'000,
-            .rounds = 51};
+Sizes sizes(Amount amount) {
+    switch (amount) {
+        case Amount::small:
+            return {.pairs = 4096,
+                    .leak_rays = 4096,
+                    .root_stride = 1021,
+                    .root_samples = 64,
+                    .boxes = 20'000,
+                    .spheres = 4096,
+                    .bounces = 1000,
+                    .rounds = 1};
+        case Amount::quick:
+            return {.pairs = 100'000,
+                    .leak_rays = 100'000,
+                    .root_stride = 17,
+                    .root_samples = 1000,
+                    .boxes = 1'000'000,
+                    .spheres = 50'000,
+                    .bounces = 100'000,
+                    .rounds = 15};
+        default:
+            return {.pairs = 1'000'000,
+                    .leak_rays = 1'000'000,
+                    .root_stride = 1,
+                    .root_samples = 20'000,
+                    .boxes = 10'000'000,
+                    .spheres = 200'000,
+                    .bounces = 1'000'000,
+                    .rounds = 51};
+    }
 }
 
 void count_triangles(const Options& options, Measurements& measured) {
     Progress progress("triangles: wrong decisions", triangle_inputs().size());
     for (const TriangleInput& input : triangle_inputs()) {
         measured.triangles.push_back(
-            triangle_accuracy(input, amounts(options).pairs, options.seed, options.threads));
+            triangle_accuracy(input, sizes(options.amount()).pairs, options.seed, options.threads));
         progress.step();
     }
 }
@@ -48,8 +54,8 @@ void count_leaks(const Options& options, Measurements& measured) {
     const std::vector<int> shifts{0, 3, 6};
     Progress progress("triangles: leaks", shifts.size());
     for (const int shift : shifts) {
-        measured.leaks.push_back(
-            closed_mesh_leaks(3, shift, amounts(options).leak_rays, options.seed, options.threads));
+        measured.leaks.push_back(closed_mesh_leaks(3, shift, sizes(options.amount()).leak_rays,
+                                                   options.seed, options.threads));
         progress.step();
     }
 }
@@ -57,24 +63,24 @@ void count_leaks(const Options& options, Measurements& measured) {
 void count_roots(const Options& options, Measurements& measured) {
     Progress progress("square roots", root_forms().size());
     for (const RootForm& form : root_forms()) {
-        measured.roots.push_back(
-            root_accuracy(form, amounts(options).root_stride, amounts(options).root_samples));
+        measured.roots.push_back(root_accuracy(form, sizes(options.amount()).root_stride,
+                                               sizes(options.amount()).root_samples));
         progress.step();
     }
 }
 
 void count_boxes(const Options& options, Measurements& measured) {
     measured.lattice = lattice_box_accuracy();
-    measured.boxes = box_accuracy(amounts(options).boxes, options.seed, options.threads);
-    measured.from_inside = rays_from_inside(amounts(options).spheres, options.seed);
-    measured.oriented = oriented_box_accuracy(amounts(options).spheres, options.seed);
+    measured.boxes = box_accuracy(sizes(options.amount()).boxes, options.seed, options.threads);
+    measured.from_inside = rays_from_inside(sizes(options.amount()).spheres, options.seed);
+    measured.oriented = oriented_box_accuracy(sizes(options.amount()).spheres, options.seed);
 }
 
 void count_spheres(const Options& options, Measurements& measured) {
     for (const double distance : {3.0, 300.0, 3e3, 3e4, 3e6})
-        measured.spheres.push_back(
-            sphere_accuracy(distance, amounts(options).spheres, options.seed, options.threads));
-    measured.behind = spheres_behind(amounts(options).spheres, options.seed);
+        measured.spheres.push_back(sphere_accuracy(distance, sizes(options.amount()).spheres,
+                                                   options.seed, options.threads));
+    measured.behind = spheres_behind(sizes(options.amount()).spheres, options.seed);
 }
 
 void count_bounces(const Options& options, Measurements& measured) {
@@ -88,7 +94,7 @@ void count_bounces(const Options& options, Measurements& measured) {
         for (const OriginWay& way : origin_ways()) {
             measured.bounces.push_back(
                 {way.name, place,
-                 bounces(way, filtered_exact, place, amounts(options).bounces, options.seed,
+                 bounces(way, filtered_exact, place, sizes(options.amount()).bounces, options.seed,
                          options.threads)});
             progress.step();
         }
@@ -96,7 +102,7 @@ void count_bounces(const Options& options, Measurements& measured) {
 
 void time_triangles(const Options& options, Measurements& measured) {
     const std::vector<std::string> scenes{"soup:20000", "room", "sphereflake:3", "mount", "boxes"};
-    const int rounds = amounts(options).rounds;
+    const int rounds = sizes(options.amount()).rounds;
     Progress progress("timing triangles", scenes.size() + 1);
     const auto time_leaves = [&](const Leaves& leaves) {
         measured.triangle_times.push_back({leaves.scene, time_triangle_tests(leaves, rounds),
@@ -112,25 +118,43 @@ void time_triangles(const Options& options, Measurements& measured) {
 }
 
 void time_patterns(const Options& options, Measurements& measured) {
-    const int rounds = amounts(options).rounds;
+    const int rounds = sizes(options.amount()).rounds;
     for (const Pattern pattern : patterns)
         measured.pattern_times.push_back(
             {pattern, time_box_tests(pattern, rounds), time_orders(pattern, rounds)});
 }
 
 void time_others(const Options& options, Measurements& measured) {
-    const int rounds = amounts(options).rounds;
+    const int rounds = sizes(options.amount()).rounds;
     measured.root_times = time_roots(rounds);
     measured.sphere_times = time_sphere_tests(rounds);
     measured.plane_times = time_planes(rounds);
 }
 
-Measurements measure(const Options& options) {
-    Measurements measured;
-    for (const auto part : {count_triangles, count_leaks, count_roots, count_boxes, count_spheres,
-                            count_bounces, time_triangles, time_patterns, time_others})
-        part(options, measured);
+const Measurements& measure(const Options& options, std::initializer_list<Part> parts) {
+    static Measurements measured;
+    static std::vector<Part> done;
+    for (const Part part : parts)
+        if (std::ranges::find(done, part) == done.end()) {
+            part(options, measured);
+            done.push_back(part);
+        }
     return measured;
+}
+
+const Measurements& measure_all(const Options& options) {
+    return measure(options, {count_triangles, count_leaks, count_roots, count_boxes, count_spheres,
+                             count_bounces, time_triangles, time_patterns, time_others});
+}
+
+std::uint64_t wrong_answers(const Measurements& measured) {
+    std::uint64_t missed = 0;
+    for_each_named(box_tests, [&](std::size_t i, const auto& named) {
+        if (std::is_same_v<TestOf<decltype(named)>, SlabConservative>)
+            missed += measured.lattice.wrong[i].misses + measured.boxes.wrong[i].misses +
+                      measured.from_inside.rejected[i];
+    });
+    return missed;
 }
 
 double relative_time(const SceneTimes& scene, std::string_view test) {

@@ -9,12 +9,13 @@
 #include "common/program/options.hpp"
 #include "common/program/results.hpp"
 
+#include <initializer_list>
 #include <vector>
 
 namespace space::ch02 {
 
 /// How many inputs are counted, and how many rounds are timed.
-struct Amounts {
+struct Sizes {
     std::uint64_t pairs;      ///< rays with a triangle each, per input class
     std::uint64_t leak_rays;  ///< per closed mesh
     std::uint32_t root_stride, root_samples;
@@ -22,8 +23,7 @@ struct Amounts {
     std::uint64_t bounces;         ///< per way and place
     int rounds;
 };
-/// For tests (--small), for a look (--quick), for the book.
-Amounts amounts(const Options& options);
+Sizes sizes(Amount amount);
 
 /// The triangle tests on one scene.
 struct SceneTimes {
@@ -64,8 +64,9 @@ struct Measurements {
     std::vector<Timed> sphere_times, plane_times;
 };
 
-/// The parts, each of which fills in its own members. Counts do not depend on the number of
-/// threads; times are taken on one.
+/// A part fills in its own members. Counts do not depend on the number of threads; times are taken
+/// on one.
+using Part = void (*)(const Options& options, Measurements& measured);
 void count_triangles(const Options& options, Measurements& measured);
 void count_leaks(const Options& options, Measurements& measured);
 void count_roots(const Options& options, Measurements& measured);
@@ -76,17 +77,24 @@ void time_triangles(const Options& options, Measurements& measured);
 void time_patterns(const Options& options,
                    Measurements& measured);  ///< boxes, and orders of a triangle test
 void time_others(const Options& options, Measurements& measured);  ///< roots, spheres, planes
-Measurements measure(const Options& options);
+
+/// What these parts count and time, each once in a program's run: tables, claims and charts show
+/// the same.
+const Measurements& measure(const Options& options, std::initializer_list<Part> parts);
+const Measurements& measure_all(const Options& options);
 
 /// A test's time as a multiple of MollerTrumboreFloat's on the same scene.
 double relative_time(const SceneTimes& scene, std::string_view test);
 
-Chart triangle_chart(
-    const Measurements& measured);  ///< fig_02_11: ns per test against leaks and wrong decisions
-Chart root_chart(const Measurements& measured);  ///< fig_02_12: ns per root against the worst error
-Chart box_chart(const Measurements& measured);   ///< fig_02_13: ns per test against boxes missed
-Chart sphere_chart(
-    const Measurements& measured);  ///< fig_02_14: wrong decisions against the distance, and ns
+/// Nanoseconds per triangle test against leaks, per root against the worst error, per box test
+/// against boxes missed; wrong decisions about spheres against the distance.
+Chart triangle_chart(const Measurements& measured);
+Chart root_chart(const Measurements& measured);
+Chart box_chart(const Measurements& measured);
+Chart sphere_chart(const Measurements& measured);
+
+/// What is promised never to happen: hits that the conservative box test misses.
+std::uint64_t wrong_answers(const Measurements& measured);
 
 /// The answers to L1 L2 L3 L4 L5 L8 L9 O4 O5 O12 O13 H15.
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);

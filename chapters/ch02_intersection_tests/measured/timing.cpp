@@ -15,7 +15,7 @@
 namespace space::ch02 {
 namespace {
 
-/// The functions that were named, run in turns; `tests` in each run.
+/// Times functions that run in turns. Each does `tests` tests in a run.
 class Race {
   public:
     void add(std::string name, std::function<void()> run) {

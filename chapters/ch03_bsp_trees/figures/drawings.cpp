@@ -1,5 +1,4 @@
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
-
+#include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 
 #include <fmt/format.h>
@@ -11,12 +10,12 @@ namespace space::ch03 {
 // -------------------------------------------------------------------------------------------------
 // 3.1 The plane of A .. G
 
-void draw_heinonen_plane(const Options& options) {
+Svg fig_03_01(const Options&) {
     const Story story = heinonen_story();
-    Svg svg("fig_03_01",
-            "Seven segments A to G, cut by the lines of the splitters G, E, B and A; beside it, "
-            "the sets that each splitter makes",
-            640, 424);
+    Svg svg(
+        "Seven segments A to G, cut by the lines of the splitters G, E, B and A; beside it, "
+        "the sets that each splitter makes",
+        640, 424);
     const PlaneView view{.corner = {8, 20}, .scale = 24, .size = heinonen_size};
     for (std::size_t i = 0; i < story.cells.size(); ++i)
         svg.polygon(view(story.cells[i].cell), cell_style(story, i), fmt::format("cell-{}", i + 1));
@@ -62,18 +61,17 @@ void draw_heinonen_plane(const Options& options) {
             line("behind " + written(story, turn.back), 14, {.anchor = Anchor::start, .size = 18});
         y += 8;
     }
-    write_drawing(options.out, "fig_03_01", svg);
+    return svg;
 }
 
 // -------------------------------------------------------------------------------------------------
 // 3.2 The tree of A .. G
 
-void draw_heinonen_tree(const Options& options) {
+Svg fig_03_02(const Options&) {
     const Story story = heinonen_story();
     const TreeLayout layout = layout_of(story);
     constexpr double slot = 70, level = 78, top = 34, left = 5;
     Svg svg(
-        "fig_03_02",
         "The tree of the segments A to G: G at the root; squares are the empty cells at its bottom",
         640, top + level * static_cast<double>(layout.levels - 1) + 30);
     const auto place = [&](const Double2& p) { return at(left + slot * p.x, top + level * p.y); };
@@ -106,7 +104,7 @@ void draw_heinonen_tree(const Options& options) {
     }
     svg.text({16, 30}, "left: behind", {.anchor = Anchor::start, .ink = Ink::vermillion});
     svg.text({16, 56}, "right: in front", {.anchor = Anchor::start, .ink = Ink::blue});
-    write_drawing(options.out, "fig_03_02", svg);
+    return svg;
 }
 
 }  // namespace space::ch03

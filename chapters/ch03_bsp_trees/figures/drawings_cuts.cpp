@@ -1,6 +1,6 @@
 // What a fragment's corner is, and what becomes of two neighbours' common edge.
 
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 #include "common/program/report.hpp"
 #include "common/random.hpp"
@@ -68,11 +68,11 @@ Neighbours random_neighbours(Pcg32& random) {
 // -------------------------------------------------------------------------------------------------
 // 3.3 Corners, and cracks
 
-void draw_corners(const Options& options) {
-    Svg svg("fig_03_03",
-            "A fragment's corners are meets of planes; below, where two neighbours cut their "
-            "common edge, by three grades",
-            640, 584);
+Svg fig_03_03(const Options&) {
+    Svg svg(
+        "A fragment's corners are meets of planes; below, where two neighbours cut their "
+        "common edge, by three grades",
+        640, 584);
 
     // A triangle that two planes have cut.
     const std::vector<Triangle> triangle{{Point3(1, 1, 0), Point3(15, 2, 0), Point3(5, 10, 0)}};
@@ -212,7 +212,7 @@ void draw_corners(const Options& options) {
     panel(4, "own order", Grade::thick_float);
     panel(220, "canonical order", Grade::ordered_float);
     panel(436, "exact", Grade::exact);
-    write_drawing(options.out, "fig_03_03", svg);
+    return svg;
 }
 
 }  // namespace space::ch03

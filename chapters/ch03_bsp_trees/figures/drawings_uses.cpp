@@ -1,7 +1,7 @@
 // What a BSP tree is used for: the painter's order and rays; and a body on which it fails.
 
 #include "chapters/ch03_bsp_trees/bsp.hpp"
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 #include "common/random.hpp"
 
@@ -23,7 +23,7 @@ constexpr std::array colors{Ink::blue, Ink::orange, Ink::green, Ink::vermillion,
 // -------------------------------------------------------------------------------------------------
 // 3.4 Painter's order
 
-void draw_painters_order(const Options& options) {
+Svg fig_03_04(const Options&) {
     const Story story = heinonen_story();
     const Point2 eye{3.25f, 0.75f};
     std::vector<std::size_t> order;  // pieces, the farthest first
@@ -39,10 +39,10 @@ void draw_painters_order(const Options& options) {
         return std::minmax({angle(piece.from), angle(piece.to)});
     };
 
-    Svg svg("fig_03_04",
-            "Painter's order: pieces numbered from the farthest to the nearest as the tree gives "
-            "them, and the eye's picture after each",
-            640, 424);
+    Svg svg(
+        "Painter's order: pieces numbered from the farthest to the nearest as the tree gives "
+        "them, and the eye's picture after each",
+        640, 424);
     const PlaneView view{.corner = {8, 20}, .scale = 24, .size = heinonen_size};
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
         const auto [from, to] = line_in_cell(story, i);
@@ -95,13 +95,13 @@ void draw_painters_order(const Options& options) {
     }
     svg.text(at(left + width / 2, 22 + row * static_cast<double>(order.size()) + 16),
              "what the eye sees", {.ink = Ink::quiet, .size = 17});
-    write_drawing(options.out, "fig_03_04", svg);
+    return svg;
 }
 
 // -------------------------------------------------------------------------------------------------
 // 3.6 A convex body
 
-void draw_chain(const Options& options) {
+Svg fig_03_06(const Options&) {
     constexpr int sides = 24;
     std::vector<Segment> body;  // clockwise, so that fronts look outwards
     const auto corner = [](int i) {
@@ -112,8 +112,7 @@ void draw_chain(const Options& options) {
     constexpr double size = 14.0, slot = 12.0;
     const ConvexCell frame{{0, 0}, {size, 0}, {size, size}, {0, size}};
 
-    Svg svg("fig_03_06",
-            "A convex polygon's own lines make a chain; with free lines the tree is shallow", 640,
+    Svg svg("A convex polygon's own lines make a chain; with free lines the tree is shallow", 640,
             604);
     const auto panel = [&](double left, const BspConfig& config, const char* name,
                            std::string_view id) {
@@ -154,7 +153,7 @@ void draw_chain(const Options& options) {
     panel(8, {.splitter = BspConfig::SplitterChoice::first}, "only the sides' own lines", "chain");
     panel(328, {.splitter = BspConfig::SplitterChoice::free, .candidates = 2, .lopsided = 0.2},
           "with free lines", "free");
-    write_drawing(options.out, "fig_03_06", svg);
+    return svg;
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -191,7 +190,7 @@ bool passes(const ConvexCell& cell, const Double2& from, const Double2& to) {
 
 }  // namespace
 
-void draw_ray(const Options& options) {
+Svg fig_03_07(const Options&) {
     constexpr double width = 26.0, height = 13.0;
     std::vector<Segment> segments;
     Pcg32 random(27);
@@ -226,10 +225,10 @@ void draw_ray(const Options& options) {
 
     const TreeLayout layout = layout_of(story);
     const double row = 26;
-    Svg svg("fig_03_07",
-            "A ray walks a BSP tree front to back: both children only where it crosses a node's "
-            "line, and no further than its hit",
-            640, 24 + 312 + 60 + row * static_cast<double>(layout.levels - 1));
+    Svg svg(
+        "A ray walks a BSP tree front to back: both children only where it crosses a node's "
+        "line, and no further than its hit",
+        640, 24 + 312 + 60 + row * static_cast<double>(layout.levels - 1));
     const PlaneView view{.corner = {8, 16}, .scale = 24, .size = height};
     const Double2 start(ray.origin), end = start + nearest * Double2(ray.direction);
     for (const EmptyCell& cell : story.cells)
@@ -264,8 +263,8 @@ void draw_ray(const Options& options) {
         visited += was_visited.back();
     }
     if (visited != counts.nodes_visited)
-        throw std::logic_error(fmt::format("fig_03_07: {} nodes seem visited, {} were", visited,
-                                           counts.nodes_visited));
+        throw std::logic_error(
+            fmt::format("a ray: {} nodes seem visited, {} were", visited, counts.nodes_visited));
     for (std::size_t i = 0; i < story.turns.size(); ++i)
         if (story.turns[i].parent != BspTree<2>::none)
             svg.line(place(layout.nodes[story.turns[i].parent]), place(layout.nodes[i]),
@@ -288,7 +287,7 @@ void draw_ray(const Options& options) {
     svg.circle(at(438, bottom - 6), 6.5, {.stroke = Ink::faint, .fill = Ink::paper});
     svg.text(at(454, bottom), fmt::format("{} not visited", story.turns.size() - visited),
              {.anchor = Anchor::start, .size = 17});
-    write_drawing(options.out, "fig_03_07", svg);
+    return svg;
 }
 
 }  // namespace space::ch03

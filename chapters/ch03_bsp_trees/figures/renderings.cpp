@@ -1,6 +1,6 @@
 // A closed mesh seen by rays that hit fragments in place of the triangles that those were cut from.
 
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "chapters/ch03_bsp_trees/tiling.hpp"
@@ -74,15 +74,13 @@ class Microscope {
 
     View look(const FragmentRays& fragments, int side) const {
         View view{.image = Image(side, side)};
-        const CameraFrame frame(camera_);
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                const Ray ray = camera_ray(camera_, frame, x + 0.5, y + 0.5, side, side);
-                const bool one = fragments.meets(ray, spot_.triangles[0]),
-                           other = fragments.meets(ray, spot_.triangles[1]);
-                view.leaks += !one && !other;
-                view.image.at(x, y) = one ? sky : other ? yellow : vermillion;
-            }
+        const PixelGrid grid(camera_, side, side);
+        grid.for_each([&](int x, int y) {
+            const bool one = fragments.meets(grid.ray(x, y), spot_.triangles[0]),
+                       other = fragments.meets(grid.ray(x, y), spot_.triangles[1]);
+            view.leaks += !one && !other;
+            view.image.at(x, y) = one ? sky : other ? yellow : vermillion;
+        });
         return view;
     }
 
@@ -114,7 +112,7 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
 // -------------------------------------------------------------------------------------------------
 // 3.5 Fragments in place of triangles
 
-void draw_fragments_hit(const Options& options) {
+Svg fig_03_05(const Options&) {
     const std::vector<Triangle> triangles = teapot(5).triangles();
     std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
                                   {Grade::ordered_float, "canonical order", {}},
@@ -154,10 +152,10 @@ void draw_fragments_hit(const Options& options) {
     }
 
     constexpr int side = 150, gap = 8;
-    Svg svg("fig_03_05",
-            "Two places on a teapot's edges, seen by rays that hit fragments in place of "
-            "triangles, for four grades; leaks are marked",
-            4 * side + 5 * gap, 524);
+    Svg svg(
+        "Two places on a teapot's edges, seen by rays that hit fragments in place of "
+        "triangles, for four grades; leaks are marked",
+        4 * side + 5 * gap, 524);
     constexpr std::array titles{"an edge at which both triangles are cut",
                                 "an edge at which only one is cut: a T-junction"};
     for (std::size_t row = 0; row < shown.size(); ++row) {
@@ -179,7 +177,7 @@ void draw_fragments_hit(const Options& options) {
                      {.ink = view.leaks ? Ink::vermillion : Ink::quiet, .size = 16});
         }
     }
-    write_drawing(options.out, "fig_03_05", svg);
+    return svg;
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -194,7 +192,7 @@ float tint(std::size_t fragment) {
 
 }  // namespace
 
-void draw_painting(const Options& options) {
+Image fig_03_09(const Options& options) {
     constexpr int width = 400, height = 400,
                   samples = 3;  // of each stage; rays for a pixel, both ways
     Scene scene = make_scene("room:3", options.seed);
@@ -221,7 +219,7 @@ void draw_painting(const Options& options) {
                 stage.at(x / samples, y / samples) +=
                     fine.at(x, y) / static_cast<float>(samples * samples);
     });
-    write_png(options.out / "fig_03_09.png", side_by_side(stages));
+    return side_by_side(stages);
 }
 
 }  // namespace space::ch03

@@ -1,7 +1,5 @@
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 
-#include "common/program/file.hpp"
-
 #include <algorithm>
 
 namespace space::ch03 {
@@ -64,10 +62,6 @@ std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn) {
     const auto [first, last] =
         std::ranges::minmax_element(ends, {}, [&](const Double2& p) { return glm::dot(p, along); });
     return {*first, *last};
-}
-
-void write_drawing(const std::filesystem::path& folder, std::string_view id, const Svg& svg) {
-    write_file(folder / (std::string(id) + ".svg"), svg.document());
 }
 
 }  // namespace space::ch03

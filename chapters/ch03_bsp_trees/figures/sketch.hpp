@@ -6,19 +6,10 @@
 #include "chapters/ch03_bsp_trees/figures/story.hpp"
 #include "common/program/svg.hpp"
 
-#include <filesystem>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace space::ch03 {
-
-inline Point2 at(double x, double y) {
-    return Point2(Double2(x, y));
-}
-inline Point2 moved(const Point2& p, double x, double y) {
-    return p + at(x, y);
-}
 
 /// Where a point of the plane stands on the paper: y upwards becomes y downwards.
 struct PlaneView {
@@ -48,8 +39,5 @@ Point2 heinonen_name_place(const PlaneView& view, const Piece& piece);
 
 /// The splitter's line within its node's cell: its two ends.
 std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn);
-
-/// Writes ID.svg.
-void write_drawing(const std::filesystem::path& folder, std::string_view id, const Svg& svg);
 
 }  // namespace space::ch03

@@ -1,7 +1,7 @@
 // The build of a BSP tree, step by step: what the builder told its observer becomes the steps of a
 // drawing, through which a page leads its reader.
 
-#include "chapters/ch03_bsp_trees/figures/drawings.hpp"
+#include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 
 #include <fmt/format.h>
@@ -119,15 +119,14 @@ Ink ink_of(const Story& story, const Step& step, std::size_t piece) {
 
 }  // namespace
 
-void draw_step_through(const Options& options) {
+Svg fig_03_10(const Options&) {
     const Story story = heinonen_story();
     const Script script = script_of(story);
     const TreeLayout layout = layout_of(story);
     const int last = static_cast<int>(script.steps.size()) - 1;
 
     constexpr double slot = 34, level = 74, radius = 20;
-    Svg svg("fig_03_10",
-            "The segments A to G and the tree that the builder has made of them, step by step", 676,
+    Svg svg("The segments A to G and the tree that the builder has made of them, step by step", 676,
             356);
     const PlaneView view{.corner = {8, 10}, .scale = 21, .size = heinonen_size};
     const auto place = [&](const Double2& p) { return at(362 + slot * p.x, 32 + level * p.y); };
@@ -251,7 +250,7 @@ void draw_step_through(const Options& options) {
         node(Ink::ink);
         svg.end_group();
     }
-    write_drawing(options.out, "fig_03_10", svg);
+    return svg;
 }
 
 }  // namespace space::ch03

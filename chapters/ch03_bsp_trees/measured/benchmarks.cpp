@@ -37,12 +37,7 @@ const Soup& soup() {
 std::vector<Ray> camera_rays() {
     constexpr int side = 16;
     const Camera camera = make_scene("soup:1024").camera;
-    const CameraFrame frame(camera);
-    std::vector<Ray> rays;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            rays.push_back(camera_ray(camera, frame, x + 0.5, y + 0.5, side, side));
-    return rays;
+    return space::camera_rays({camera, side, side});
 }
 
 void classify(benchmark::State& state) {

@@ -27,7 +27,6 @@ constexpr double none = 0.1;
 
 Chart fragments_chart(const std::vector<Growth>& growth) {
     Chart chart{
-        .id = "fig_03_11",
         .title = "Fragments against the number of polygons, by scene and choice of splitters",
         .x_label = "polygons",
         .y_label = "fragments per polygon",
@@ -47,7 +46,6 @@ Chart fragments_chart(const std::vector<Growth>& growth) {
 
 Chart build_chart(const std::vector<Growth>& growth) {
     Chart chart{
-        .id = "fig_03_12",
         .title = "Build time against the number of polygons, by scene and choice of splitters",
         .x_label = "polygons",
         .y_label = "build time in ms",
@@ -66,8 +64,7 @@ Chart build_chart(const std::vector<Growth>& growth) {
 }
 
 Chart grades_chart(const std::vector<GradePoint>& grades) {
-    Chart chart{.id = "fig_03_13",
-                .title =
+    Chart chart{.title =
                     "Four grades of care: build time against rays that slip between fragments; "
                     "labels: the worst polygon's relative area error, and cracks",
                 .x_label = "build time, thick float = 1; labels: worst area error, cracks",
@@ -96,7 +93,6 @@ Chart grades_chart(const std::vector<GradePoint>& grades) {
 
 Chart rays_chart(const std::vector<Growth>& growth) {
     Chart chart{
-        .id = "fig_03_14",
         .title = "Nodes and tests per ray against the number of polygons, beside naive tracing",
         .x_label = "polygons",
         .y_label = "per ray",

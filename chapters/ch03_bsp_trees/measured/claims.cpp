@@ -14,13 +14,6 @@ namespace {
 /// (small n, steps of whole levels) moves the fitted slopes by as much.
 constexpr double flat = 0.1;
 
-Verdict over(std::size_t agree, std::size_t all) {
-    return agree == all ? Verdict::confirmed : agree == 0 ? Verdict::refuted : Verdict::depends;
-}
-std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
 /// "5 of 6" and the scenes of the series where `value` outgrows `bound`.
 struct Bounded {
     std::size_t within = 0, series = 0;
@@ -106,7 +99,7 @@ ClaimAnswer answer_depth(const std::vector<Growth>& growth) {
         for (const TreePoint& p : g.points)
             lower_bound = lower_bound && double(p.depth) >= least_depth(p);
     }
-    const Verdict verdict = lower_bound ? over(grows.within, grows.series) : Verdict::refuted;
+    const Verdict verdict = lower_bound ? verdict_of(grows.within, grows.series) : Verdict::refuted;
     return {
         "H4", verdict,
         fmt::format("depth by the most balanced of {} candidates, at the largest size: {}; depth / "
@@ -162,7 +155,7 @@ ClaimAnswer answer_pieces(const Measurements& measured) {
                                     with_commas(split.most_pieces),
                                     with_commas(shared->most_pieces)));
     }
-    return {"H6", over(increased, scenes),
+    return {"H6", verdict_of(increased, scenes),
             fmt::format(
                 "fragments per polygon where polygons are split, and subtrees per polygon where "
                 "they are shared (most of one polygon): {}",
@@ -215,8 +208,8 @@ ClaimAnswer answer_bounds(const std::vector<Growth>& growth) {
         growth, [](const TreePoint& p) { return p.nodes_per_ray(); }, log_n);
     return {
         "P3",
-        over(size.within + build.within + search.within,
-             size.series + build.series + search.series),
+        verdict_of(size.within + build.within + search.within,
+                   size.series + build.series + search.series),
         fmt::format("size O(n log n) holds in {}; build O(n^2 log n), in fragments placed, in {}; "
                     "search O(log n), in nodes per ray, in {}",
                     size.text(), build.text(), search.text()),

@@ -83,21 +83,21 @@ std::uint64_t next_placed(const std::vector<TreePoint>& points, std::size_t poly
 }
 
 /// Adds the next tree to the series, or the reason why it ends here.
-void grow(Growth& growth, const Method& method, const TreeTask& task, const Amounts& limits) {
+void grow(Growth& growth, const Method& method, const TreeTask& task, const Limits& limit) {
     if (!growth.points.empty()) {
         const auto work = classified(method, next_placed(growth.points, task.triangles.size()));
-        if (work > limits.max_classified) {
+        if (work > limit.max_classified) {
             growth.stopped = fmt::format("{} would take {:.0f} million classifications",
                                          with_commas(task.triangles.size()), 1e-6 * double(work));
             return;
         }
     }
     try {
-        growth.points.push_back(measure_tree(task, method, limits.max_fragments));
+        growth.points.push_back(measure_tree(task, method, limit.max_fragments));
     } catch (const LimitError&) {
         growth.stopped =
             fmt::format("{} have more than {} fragments", with_commas(task.triangles.size()),
-                        with_commas(limits.max_fragments));
+                        with_commas(limit.max_fragments));
     }
 }
 
@@ -108,15 +108,15 @@ constexpr bool grows(const Method& method) {
 }  // namespace
 
 std::vector<Growth> measure_growth(const Options& options) {
-    const Amounts limits = amounts(options);
+    const Limits limit = limits(options.amount());
     std::vector<Growth> all;
-    Progress progress("growth", growing_scenes().size() * limits.sizes * (methods.size() - 1));
+    Progress progress("growth", growing_scenes().size() * limit.sizes * (methods.size() - 1));
     for (const GrowingScene& scene : growing_scenes()) {
-        const std::size_t first = all.size(), sizes = std::min(limits.sizes, scene.sizes.size());
+        const std::size_t first = all.size(), sizes = std::min(limit.sizes, scene.sizes.size());
         for (const Method& method : methods)
             if (grows(method))
                 all.push_back({.scene = scene.name, .method = std::string(method.name)});
-        for (std::size_t i = 0; i < limits.sizes; ++i) {
+        for (std::size_t i = 0; i < limit.sizes; ++i) {
             const auto stopped = [](const Growth& growth) { return !growth.stopped.empty(); };
             const bool ended =
                 i >= sizes || std::all_of(&all[first], all.data() + all.size(), stopped);
@@ -129,7 +129,7 @@ std::vector<Growth> measure_growth(const Options& options) {
             for (const Method& method : methods) {
                 if (!grows(method)) continue;
                 Growth& growth = all[series++];
-                if (growth.stopped.empty()) grow(growth, method, task, limits);
+                if (growth.stopped.empty()) grow(growth, method, task, limit);
                 progress.step();
             }
         }

@@ -26,27 +26,30 @@ struct PlacedCounter : NoObserver {
 
 }  // namespace
 
-Amounts amounts(const Options& options) {
-    if (options.small)
-        return {.sizes = 3,
-                .max_classified = 2'000'000,
-                .max_fragments = 20'000,
-                .rays = 100,
-                .edge_rays = 2'000,
-                .rounds = 1};
-    if (options.quick)
-        return {.sizes = 5,
-                .max_classified = 20'000'000,
-                .max_fragments = 100'000,
-                .rays = 300,
-                .edge_rays = 20'000,
-                .rounds = 3};
-    return {.sizes = 7,
-            .max_classified = 500'000'000,
-            .max_fragments = 1'500'000,
-            .rays = 1'000,
-            .edge_rays = 1'000'000,
-            .rounds = 5};
+Limits limits(Amount amount) {
+    switch (amount) {
+        case Amount::small:
+            return {.sizes = 3,
+                    .max_classified = 2'000'000,
+                    .max_fragments = 20'000,
+                    .rays = 100,
+                    .edge_rays = 2'000,
+                    .rounds = 1};
+        case Amount::quick:
+            return {.sizes = 5,
+                    .max_classified = 20'000'000,
+                    .max_fragments = 100'000,
+                    .rays = 300,
+                    .edge_rays = 20'000,
+                    .rounds = 3};
+        default:
+            return {.sizes = 7,
+                    .max_classified = 500'000'000,
+                    .max_fragments = 1'500'000,
+                    .rays = 1'000,
+                    .edge_rays = 1'000'000,
+                    .rounds = 5};
+    }
 }
 
 std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
@@ -68,7 +71,7 @@ std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size
 TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& options)
     : scene(std::move(name)),
       triangles(std::move(all)),
-      rays(rays_from_around(triangles, amounts(options).rays, options.seed)) {
+      rays(rays_from_around(triangles, limits(options.amount()).rays, options.seed)) {
     const auto naive = Naive<FilteredExact>::build(triangles);
     truth.resize(rays.size());
     parallel_for(rays.size(), options.threads, 16,
@@ -173,7 +176,8 @@ std::vector<Crossings> measure_crossings(const Options& options) {
         const BspTree<3>& tree = bsp.tree();
         Crossings crossings{.scene = name};
         TraversalCounts counts;
-        for (const Ray& ray : rays_from_around(triangles, amounts(options).rays, options.seed)) {
+        for (const Ray& ray :
+             rays_from_around(triangles, limits(options.amount()).rays, options.seed)) {
             ++crossings.rays;
             front_to_back(tree, ray, counts, [&](const BspTree<3>::Node& node) {
                 const int side = tree.side_of(ray.origin, node);
@@ -195,7 +199,7 @@ std::vector<Crossings> measure_crossings(const Options& options) {
 // The four grades
 
 std::vector<GradePoint> measure_grades(const Options& options) {
-    const Amounts limits = amounts(options);
+    const Limits limit = limits(options.amount());
     std::vector<const char*> scenes{options.small ? "lattice" : "lattice:2"};
     if (!options.small) scenes.emplace_back("sphereflake");
     if (!options.small && !options.quick) scenes.emplace_back("bunny");
@@ -217,7 +221,7 @@ std::vector<GradePoint> measure_grades(const Options& options) {
             builds.push_back([&, i] {
                 trees[i] = BspBuilder<3>::build(polygons, {.grade = grade_names[i].second});
             });
-        const std::vector<double> build_ms = interleaved_medians(builds, limits.rounds);
+        const std::vector<double> build_ms = interleaved_medians(builds, limit.rounds);
         for (std::size_t i = 0; i < grade_names.size(); ++i) {
             const auto [grade_name, grade] = grade_names[i];
             const FragmentRays rays(trees[i], grade);
@@ -226,8 +230,8 @@ std::vector<GradePoint> measure_grades(const Options& options) {
                               .nodes = trees[i].nodes.size(),
                               .fragments = trees[i].fragments.size(),
                               .tiling = measure_tiling(trees[i], grade),
-                              .old_edges = rays.at_old_edges(limits.edge_rays, options.seed),
-                              .cuts = rays.at_cuts(limits.edge_rays, options.seed),
+                              .old_edges = rays.at_old_edges(limit.edge_rays, options.seed),
+                              .cuts = rays.at_cuts(limit.edge_rays, options.seed),
                               .build_ms = build_ms[i]});
             trees[i] = {};
             progress.step();

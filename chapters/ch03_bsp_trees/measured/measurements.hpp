@@ -41,15 +41,15 @@ inline constexpr std::array grade_names{
     std::pair{"thick float", Grade::thick_float}, std::pair{"ordered float", Grade::ordered_float},
     std::pair{"double", Grade::ordered_double}, std::pair{"exact", Grade::exact}};
 
-/// How much is measured: for tests (--small), for a look (--quick), for the book.
-struct Amounts {
+/// How far measurements go.
+struct Limits {
     std::size_t sizes;             ///< of each growing scene
     std::uint64_t max_classified;  ///< polygons against planes, in one build
     std::size_t max_fragments;
     std::size_t rays, edge_rays;  ///< through each tree; at edges and at cuts of a closed mesh
     int rounds;                   ///< of timed builds
 };
-Amounts amounts(const Options& options);
+Limits limits(Amount amount);
 /// Some 2 GB, and half a minute: where the chapter gives a scene's tree up.
 inline constexpr std::size_t max_scene_fragments = 5'000'000;
 inline constexpr std::uint64_t max_scene_placed = 100'000'000;
@@ -144,7 +144,7 @@ struct GradePoint {
 };
 std::vector<GradePoint> measure_grades(const Options& options);
 
-/// All of it.
+/// What a run measures.
 struct Measurements {
     MethodTrees methods;
     std::vector<TreePoint> scenes;
@@ -156,10 +156,10 @@ struct Measurements {
 /// and what the exact grade must not have: lost area, cracks, slipped rays.
 std::uint64_t wrong_answers(const Measurements& measured);
 
-Chart fragments_chart(const std::vector<Growth>& growth);   ///< fig_03_11
-Chart build_chart(const std::vector<Growth>& growth);       ///< fig_03_12
-Chart grades_chart(const std::vector<GradePoint>& grades);  ///< fig_03_13
-Chart rays_chart(const std::vector<Growth>& growth);        ///< fig_03_14
+Chart fragments_chart(const std::vector<Growth>& growth);
+Chart build_chart(const std::vector<Growth>& growth);
+Chart grades_chart(const std::vector<GradePoint>& grades);
+Chart rays_chart(const std::vector<Growth>& growth);
 
 /// H4, H5, H6, H7 and P3.
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);

@@ -10,7 +10,7 @@ std::string ms_text(double ms) {
     return fmt::format("{:.{}f}", ms, ms < 100 ? 1 : 0);
 }
 
-/// A row without its times, for those who print none.
+/// Adds a row; its last cell, the time, only where times are shown.
 void add_row(Table& table, std::vector<std::string> cells, bool times, const std::string& time) {
     if (times) cells.push_back(time);
     table.row(cells);

@@ -1,0 +1,40 @@
+#include "common/program/chapter.hpp"
+
+#include "common/program/error.hpp"
+#include "common/program/file.hpp"
+#include "common/program/report.hpp"
+
+#include <fmt/format.h>
+
+namespace space {
+namespace {
+
+std::filesystem::path results_file(const Options& options) {
+    return options.out / "results.json";
+}
+
+}  // namespace
+
+void check_results_writable(const Options& options) {
+    check_writable(results_file(options));
+}
+
+int exit_code(std::uint64_t wrong_answers) {
+    return static_cast<int>(wrong_answers ? ExitCode::wrong_answer : ExitCode::ok);
+}
+
+int finish(const Options& options, const std::vector<ClaimAnswer>& answers,
+           std::uint64_t wrong_answers) {
+    write_results(results_file(options),
+                  {provenance(std::string(this_chapter.name), options), answers});
+    if (!options.small) {
+        for (const Figure& figure : this_chapter.figures)
+            if (figure.is_chart()) write_figure(figure, options);
+        print_heading("The sources' claims");
+        for (const ClaimAnswer& answer : answers)
+            fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
+    }
+    return exit_code(wrong_answers);
+}
+
+}  // namespace space
