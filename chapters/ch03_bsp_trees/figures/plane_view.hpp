@@ -3,7 +3,7 @@
 /// cells, trees.
 #pragma once
 
-#include "chapters/ch03_bsp_trees/figures/story.hpp"
+#include "chapters/ch03_bsp_trees/figures/recorded_build.hpp"
 #include "common/program/svg.hpp"
 
 #include <utility>

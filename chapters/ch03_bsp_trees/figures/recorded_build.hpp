@@ -17,6 +17,19 @@ namespace space::ch03 {
 /// A convex part of the plane: its corners in order.
 using ConvexCell = std::vector<Double2>;
 
+/// The part of a convex cell where height(point) is not negative; the height is linear.
+template <class Height>
+ConvexCell part_above(const ConvexCell& cell, const Height& height) {
+    ConvexCell part;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        const Double2 &p = cell[i], &q = cell[(i + 1) % cell.size()];
+        const double at_p = height(p), at_q = height(q);
+        if (at_p >= 0.0) part.push_back(p);
+        if (at_p * at_q < 0.0) part.push_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    return part;
+}
+
 /// The part of a convex cell in front of a line, or behind it.
 ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_front);
 

@@ -2,12 +2,17 @@
 // drawing, through which a page leads its reader.
 
 #include "chapters/ch03_bsp_trees/figures.hpp"
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+#include "chapters/ch03_bsp_trees/figures/plane_view.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace space::ch03 {
 namespace {
@@ -117,130 +122,146 @@ Ink ink_of(const Story& story, const Step& step, std::size_t piece) {
     return part || holds(turn.set, piece) ? Ink::ink : Ink::quiet;
 }
 
-}  // namespace
+/// The story, its script, and where its parts stand on the paper.
+struct Stage {
+    Story story = heinonen_story();
+    Script script = script_of(story);
+    TreeLayout layout = layout_of(story);
+    int last = static_cast<int>(script.steps.size()) - 1;
+    PlaneView view{.corner = {8, 10}, .scale = 21, .size = heinonen_size};
 
-Svg fig_03_10(const Options&) {
-    const Story story = heinonen_story();
-    const Script script = script_of(story);
-    const TreeLayout layout = layout_of(story);
-    const int last = static_cast<int>(script.steps.size()) - 1;
+    const Step& step(int k) const { return script.steps[static_cast<std::size_t>(k)]; }
+    Point2 place(const Double2& p) const { return at(362 + 34 * p.x, 32 + 74 * p.y); }
+    /// What shows in step k only; at the end in the last one.
+    void begin(Svg& svg, int k, std::string_view tells = {}) const {
+        svg.begin_step(k, k == last ? std::optional<int>() : k, tells);
+    }
+};
 
-    constexpr double slot = 34, level = 74, radius = 20;
-    Svg svg("The segments A to G and the tree that the builder has made of them, step by step", 676,
-            356);
-    const PlaneView view{.corner = {8, 10}, .scale = 21, .size = heinonen_size};
-    const auto place = [&](const Double2& p) { return at(362 + slot * p.x, 32 + level * p.y); };
-    const auto begin = [&](int step, std::string_view tells = {}) {
-        svg.begin_step(step, step == last ? std::optional<int>() : step, tells);
-    };
-
-    // The part of the plane that a step is about, and what the page tells.
-    for (int k = 0; k <= last; ++k) {
-        const Step& step = script.steps[static_cast<std::size_t>(k)];
-        begin(k, step.tells);
-        if (k == last)
-            for (std::size_t i = 0; i < story.cells.size(); ++i)
-                svg.polygon(view(story.cells[i].cell), cell_style(story, i));
-        if (step.turn < story.turns.size()) {
-            const ConvexCell& cell = story.turns[step.turn].cell;
-            const auto& line = story.tree.planes[story.tree.nodes[step.turn].plane];
+/// The part of the plane that a step is about, and what the page tells.
+void draw_regions(Svg& svg, const Stage& stage) {
+    for (int k = 0; k <= stage.last; ++k) {
+        const Step& step = stage.step(k);
+        stage.begin(svg, k, step.tells);
+        if (k == stage.last)
+            for (std::size_t i = 0; i < stage.story.cells.size(); ++i)
+                svg.polygon(stage.view(stage.story.cells[i].cell), cell_style(stage.story, i));
+        if (step.turn < stage.story.turns.size()) {
+            const ConvexCell& cell = stage.story.turns[step.turn].cell;
+            const auto& line = stage.story.tree.planes[stage.story.tree.nodes[step.turn].plane];
             if (step.placed) {
-                svg.polygon(view(part_of(cell, line, true)),
+                svg.polygon(stage.view(part_of(cell, line, true)),
                             {.stroke = {}, .fill = Ink::sky, .opacity = 0.4});
-                svg.polygon(view(part_of(cell, line, false)),
+                svg.polygon(stage.view(part_of(cell, line, false)),
                             {.stroke = {}, .fill = Ink::orange, .opacity = 0.4});
             } else {
-                svg.polygon(view(cell), {.stroke = {}, .fill = Ink::green, .opacity = 0.2});
+                svg.polygon(stage.view(cell), {.stroke = {}, .fill = Ink::green, .opacity = 0.2});
             }
         }
         svg.end_group();
     }
-    svg.rect(view({0, heinonen_size}), at(view.scale * view.size, view.scale * view.size),
-             {.stroke = Ink::quiet});
+}
 
-    // Lines stay from the step in which they are chosen.
-    for (std::size_t i = 0; i < story.turns.size(); ++i) {
-        const auto [from, to] = line_in_cell(story, i);
-        const bool alone = story.turns[i].set.size() == 1;
-        const Steps& steps = script.of_turn[i];
+/// Lines stay from the step in which they are chosen.
+void draw_lines(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
+        const auto [from, to] = line_in_cell(stage.story, i);
+        const bool alone = stage.story.turns[i].set.size() == 1;
+        const Steps& steps = stage.script.of_turn[i];
         svg.begin_step(steps.chosen, steps.placed);
-        svg.line(view(from), view(to), {.stroke = Ink::green});
+        svg.line(stage.view(from), stage.view(to), {.stroke = Ink::green});
         svg.end_group();
         svg.begin_step(steps.placed + 1);
-        svg.line(view(from), view(to), {.stroke = alone ? Ink::quiet : Ink::blue, .dashed = alone});
+        svg.line(stage.view(from), stage.view(to),
+                 {.stroke = alone ? Ink::quiet : Ink::blue, .dashed = alone});
         svg.end_group();
     }
+}
 
-    // Pieces, in the step's colours: whole until they are cut.
-    std::vector<std::pair<int, int>> lives(story.pieces.size(), {0, last});
-    for (std::size_t i = 0; i < story.turns.size(); ++i)
-        for (std::size_t c = 0; c < story.turns[i].cuts.size(); ++c) {
-            const Turn::Cut& cut = story.turns[i].cuts[c];
-            const int step = script.of_turn[i].first_cut + static_cast<int>(c);
+/// Pieces, in the step's colours: whole until they are cut.
+void draw_pieces(Svg& svg, const Stage& stage) {
+    std::vector<std::pair<int, int>> lives(stage.story.pieces.size(), {0, stage.last});
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i)
+        for (std::size_t c = 0; c < stage.story.turns[i].cuts.size(); ++c) {
+            const Turn::Cut& cut = stage.story.turns[i].cuts[c];
+            const int step = stage.script.of_turn[i].first_cut + static_cast<int>(c);
             lives[cut.whole].second = step - 1;
             lives[cut.front].first = lives[cut.back].first = step;
         }
-    for (int k = 0; k <= last; ++k) {
-        begin(k);
-        const Step& step = script.steps[static_cast<std::size_t>(k)];
-        for (std::size_t i = 0; i < story.pieces.size(); ++i) {
+    for (int k = 0; k <= stage.last; ++k) {
+        stage.begin(svg, k);
+        const Step& step = stage.step(k);
+        for (std::size_t i = 0; i < stage.story.pieces.size(); ++i) {
             if (k < lives[i].first || k > lives[i].second) continue;
-            const Piece& piece = story.pieces[i];
-            const Ink ink = ink_of(story, step, i);
-            draw_segment(svg, view, piece.from, piece.to, {.stroke = {}, .fill = ink});
-            draw_front_tick(svg, view, piece.from, piece.to, ink);
-            svg.text(heinonen_name_place(view, piece), written(piece),
+            const Piece& piece = stage.story.pieces[i];
+            const Ink ink = ink_of(stage.story, step, i);
+            draw_segment(svg, stage.view, piece.from, piece.to, {.stroke = {}, .fill = ink});
+            draw_front_tick(svg, stage.view, piece.from, piece.to, ink);
+            svg.text(heinonen_name_place(stage.view, piece), written(piece),
                      {.ink = ink, .size = 24, .halo = true});
         }
-        if (step.turn < story.turns.size())
-            for (std::size_t c = 0; c < story.turns[step.turn].cuts.size(); ++c)
-                if (script.of_turn[step.turn].first_cut + static_cast<int>(c) <= k)
-                    svg.circle(view(cut_point(story, story.turns[step.turn].cuts[c])), 5,
-                               {.fill = Ink::vermillion});
+        if (step.turn < stage.story.turns.size())
+            for (std::size_t c = 0; c < stage.story.turns[step.turn].cuts.size(); ++c)
+                if (stage.script.of_turn[step.turn].first_cut + static_cast<int>(c) <= k)
+                    svg.circle(
+                        stage.view(cut_point(stage.story, stage.story.turns[step.turn].cuts[c])), 5,
+                        {.fill = Ink::vermillion});
         svg.end_group();
     }
+}
 
-    // The tree: sets wait where their nodes will be.
-    for (std::size_t i = 0; i < story.turns.size(); ++i) {
-        const Turn& turn = story.turns[i];
-        const Steps& steps = script.of_turn[i];
-        const Point2 centre = place(layout.nodes[i]);
+/// Sets wait where their nodes will be.
+void draw_waiting_sets(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
+        const Turn& turn = stage.story.turns[i];
+        const Steps& steps = stage.script.of_turn[i];
+        const Point2 centre = stage.place(stage.layout.nodes[i]);
         if (turn.parent != BspTree<2>::none) {
-            const Point2 parent = place(layout.nodes[turn.parent]);
-            svg.begin_step(script.of_turn[turn.parent].placed);
+            const Point2 parent = stage.place(stage.layout.nodes[turn.parent]);
+            svg.begin_step(stage.script.of_turn[turn.parent].placed);
             svg.line(parent, centre, {.stroke = turn.in_front ? Ink::blue : Ink::vermillion});
             svg.end_group();
         }
         if (steps.chosen > 0) {
             const int waits_from =
-                turn.parent == BspTree<2>::none ? 0 : script.of_turn[turn.parent].placed;
+                turn.parent == BspTree<2>::none ? 0 : stage.script.of_turn[turn.parent].placed;
             svg.begin_step(waits_from, steps.chosen - 1);
-            svg.text(moved(centre, 0, 16), written(story, turn.set), {.size = 20, .halo = true});
+            svg.text(moved(centre, 0, 16), written(stage.story, turn.set),
+                     {.size = 20, .halo = true});
             svg.end_group();
         }
     }
-    for (std::size_t i = 0; i < story.cells.size(); ++i) {
-        const Point2 from = place(layout.nodes[story.cells[i].node]), to = place(layout.cells[i]);
-        svg.begin_step(script.of_turn[story.cells[i].node].placed);
+}
+
+/// The empty cells at the bottom of the tree, numbered at the end.
+void draw_cells(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.cells.size(); ++i) {
+        const Point2 from = stage.place(stage.layout.nodes[stage.story.cells[i].node]),
+                     to = stage.place(stage.layout.cells[i]);
+        svg.begin_step(stage.script.of_turn[stage.story.cells[i].node].placed);
         svg.line(from, to, {.stroke = Ink::quiet, .dashed = true});
         svg.rect(moved(to, -14, -14), at(28, 28), {.stroke = Ink::quiet, .fill = Ink::paper});
         svg.end_group();
-        svg.begin_step(last);
-        Style style = cell_style(story, i);
+        svg.begin_step(stage.last);
+        Style style = cell_style(stage.story, i);
         style.stroke = Ink::quiet;
         svg.rect(moved(to, -14, -14), at(28, 28), style);
         svg.text(moved(to, 0, 6), fmt::format("{}", i + 1), {.size = 18});
-        svg.text(moved(view(story.cells[i].place), 0, 6), fmt::format("{}", i + 1),
+        svg.text(moved(stage.view(stage.story.cells[i].place), 0, 6), fmt::format("{}", i + 1),
                  {.ink = Ink::quiet, .size = 18});
         svg.end_group();
     }
-    for (std::size_t i = 0; i < story.turns.size(); ++i) {
-        const Turn& turn = story.turns[i];
-        const Steps& steps = script.of_turn[i];
-        const Point2 centre = place(layout.nodes[i]);
+}
+
+/// Nodes stay from the step in which their splitters are chosen.
+void draw_nodes(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
+        const Turn& turn = stage.story.turns[i];
+        const Steps& steps = stage.script.of_turn[i];
+        const Point2 centre = stage.place(stage.layout.nodes[i]);
         const auto node = [&](Ink ink) {
-            svg.circle(centre, radius, {.stroke = ink, .fill = Ink::paper});
-            svg.text(moved(centre, 0, 8), written(story.pieces[turn.own.front()]),
+            svg.circle(centre, 20, {.stroke = ink, .fill = Ink::paper});
+            svg.text(moved(centre, 0, 8), written(stage.story.pieces[turn.own.front()]),
                      {.ink = ink, .size = 24});
         };
         svg.begin_step(steps.chosen, steps.placed);
@@ -250,6 +271,23 @@ Svg fig_03_10(const Options&) {
         node(Ink::ink);
         svg.end_group();
     }
+}
+
+}  // namespace
+
+Svg fig_03_10(const Options&) {
+    const Stage stage;
+    Svg svg("The segments A to G and the tree that the builder has made of them, step by step", 676,
+            356);
+    draw_regions(svg, stage);
+    svg.rect(stage.view({0, heinonen_size}),
+             at(stage.view.scale * stage.view.size, stage.view.scale * stage.view.size),
+             {.stroke = Ink::quiet});
+    draw_lines(svg, stage);
+    draw_pieces(svg, stage);
+    draw_waiting_sets(svg, stage);
+    draw_cells(svg, stage);
+    draw_nodes(svg, stage);
     return svg;
 }
 

@@ -1,11 +1,10 @@
 // A closed mesh seen by rays that hit fragments in place of the triangles that those were cut from.
 
+#include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "chapters/ch03_bsp_trees/figures.hpp"
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "chapters/ch03_bsp_trees/tiling.hpp"
 #include "common/camera.hpp"
-#include "common/pcg32.hpp"
 #include "common/program/image.hpp"
 #include "common/scenes/shapes.hpp"
 
@@ -16,6 +15,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 namespace space::ch03 {
 namespace {
@@ -107,23 +108,9 @@ std::vector<Spot> spots(const BspTree<3>& tree) {
     return found;
 }
 
-}  // namespace
-
-// -------------------------------------------------------------------------------------------------
-// 3.5 Fragments in place of triangles
-
-Svg fig_03_05(const Options&) {
-    const std::vector<Triangle> triangles = teapot(5).triangles();
-    std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
-                                  {Grade::ordered_float, "canonical order", {}},
-                                  {Grade::ordered_double, "in double", {}},
-                                  {Grade::exact, "exact", {}}}};
-    for (Graded& g : graded) {
-        g.tree = BspBuilder<3>::build(triangles, {.grade = g.grade});
-        g.fragments.emplace(g.tree, g.grade);
-    }
-
-    // Where the leak is widest: one that canonical order closes, and one that it does not.
+/// Where the leak is widest: one that canonical order closes, and one that it does not.
+std::array<Spot, 2> widest_leaks(const std::vector<Triangle>& triangles,
+                                 const std::array<Graded, 4>& graded) {
     std::array<Spot, 2> shown;
     std::array<std::uint64_t, 2> most{0, 0};
     const std::vector<Spot> in_order = spots(graded[1].tree);
@@ -150,7 +137,23 @@ Svg fig_03_05(const Options&) {
         if (closed) most[0] = leaks, shown[0] = spot;
         if (open) most[1] = still, shown[1] = spot;
     }
+    return shown;
+}
 
+}  // namespace
+
+Svg fig_03_05(const Options&) {
+    const std::vector<Triangle> triangles = teapot(5).triangles();
+    std::array<Graded, 4> graded{{{Grade::thick_float, "own order", {}},
+                                  {Grade::ordered_float, "canonical order", {}},
+                                  {Grade::ordered_double, "in double", {}},
+                                  {Grade::exact, "exact", {}}}};
+    for (Graded& g : graded) {
+        g.tree = BspBuilder<3>::build(triangles, {.grade = g.grade});
+        g.fragments.emplace(g.tree, g.grade);
+    }
+
+    const std::array<Spot, 2> shown = widest_leaks(triangles, graded);
     constexpr int side = 150, gap = 8;
     Svg svg(
         "Two places on a teapot's edges, seen by rays that hit fragments in place of "
@@ -178,48 +181,6 @@ Svg fig_03_05(const Options&) {
         }
     }
     return svg;
-}
-
-// -------------------------------------------------------------------------------------------------
-// 3.9 A scene, painted
-
-namespace {
-
-/// Tells neighbouring fragments apart: a little lighter or darker.
-float tint(std::size_t fragment) {
-    return 0.82f + 0.18f * Pcg32(fragment).uniform();
-}
-
-}  // namespace
-
-Image fig_03_09(const Options& options) {
-    constexpr int width = 400, height = 400,
-                  samples = 3;  // of each stage; rays for a pixel, both ways
-    Scene scene = make_scene("room:3", options.seed);
-    scene.background = Color(1.0f);  // what is not yet painted
-    const BspTree<3> tree = BspBuilder<3>::build(scene.mesh.triangles());
-    const FragmentRays covers(tree, Grade::exact);
-
-    Image fine(samples * width, samples * height);
-    std::fill_n(&fine.at(0, 0), fine.width() * fine.height(), scene.background);
-    std::vector<Image> stages;
-    std::size_t painted = 0;
-    tree.back_to_front(scene.camera.eye, [&](const Fragment<3>& fragment) {
-        const auto number = static_cast<std::size_t>(&fragment - tree.fragments.data());
-        for_pixels_of(fragment, tree, covers, scene.camera, fine.width(), fine.height(),
-                      [&](int x, int y, const Ray& ray, const Hit& hit) {
-                          fine.at(x, y) = tint(number) *
-                                          shade(scene, ray, hit, [](const Ray&) { return true; });
-                      });
-        ++painted;
-        if (painted * 3 / tree.fragments.size() == stages.size()) return;
-        Image& stage = stages.emplace_back(width, height);
-        for (int y = 0; y < fine.height(); ++y)
-            for (int x = 0; x < fine.width(); ++x)
-                stage.at(x / samples, y / samples) +=
-                    fine.at(x, y) / static_cast<float>(samples * samples);
-    });
-    return side_by_side(stages);
 }
 
 }  // namespace space::ch03

@@ -1,4 +1,4 @@
-#include "chapters/ch03_bsp_trees/figures/sketch.hpp"
+#include "chapters/ch03_bsp_trees/figures/plane_view.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "chapters/ch03_bsp_trees/figures/story.hpp"
+#include "chapters/ch03_bsp_trees/figures/recorded_build.hpp"
 
 #include "common/scene.hpp"
 
@@ -89,14 +89,8 @@ Double2 cut_point(const Story& story, const Turn::Cut& cut) {
 }
 
 ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_front) {
-    ConvexCell part;
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-        const Double2 &p = cell[i], &q = cell[(i + 1) % cell.size()];
-        const double at_p = line.distance(p), at_q = line.distance(q);
-        if (in_front ? at_p >= 0.0 : at_p <= 0.0) part.push_back(p);
-        if (at_p * at_q < 0.0) part.push_back(p + at_p / (at_p - at_q) * (q - p));
-    }
-    return part;
+    return part_above(
+        cell, [&](const Double2& p) { return in_front ? line.distance(p) : -line.distance(p); });
 }
 
 Story watched_build(std::span<const Segment> segments, const BspConfig& config,
