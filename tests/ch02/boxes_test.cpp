@@ -302,8 +302,9 @@ TEST_CASE(
             for (int step = 0; step < pairs_each / 8; ++step) {
                 float next[3] = {best[0], best[1], best[2]};
                 float& x = next[random.below(3)];
-                const float nudged = x * (1.0f + std::ldexp(random.uniform(-1.0f, 1.0f),
-                                                            -static_cast<int>(random.below(24))));
+                const float step = random.uniform(-1.0f, 1.0f);
+                const int finer = static_cast<int>(random.below(24));
+                const float nudged = x * (1.0f + std::ldexp(step, -finer));
                 x = random.below(8) ? nudged : x < 0.0f ? -number() : number();
                 const Interval ends = at_near ? slab_ends(next[0], next[1], next[2], infinity)
                                               : slab_ends(next[0], next[1], -infinity, next[2]);
@@ -327,8 +328,8 @@ TEST_CASE(
 TEST_CASE("ends of t among the denormal floats are within two of the exact ones, outside") {
     Pcg32 random(308);
     for (int i = 0; i < pairs_each; ++i) {
-        const float d = std::ldexp(1.0f + random.uniform(),
-                                   100 + static_cast<int>(random.below(25))),
+        const float mantissa = 1.0f + random.uniform();
+        const float d = std::ldexp(mantissa, 100 + static_cast<int>(random.below(25))),
                     plane = std::ldexp(1.0f + random.uniform(), -40);
         // Where the product is denormal t d is a double, exactly.
         const double way = plane;
@@ -348,8 +349,8 @@ TEST_CASE("ends of t among the denormal floats are within two of the exact ones,
 TEST_CASE("directions whose reciprocal is denormal lose no part of the ray in the box") {
     Pcg32 random(309);
     for (int i = 0; i < pairs_each; ++i) {
-        const float d = std::ldexp(1.0f + random.uniform(),
-                                   126 + static_cast<int>(random.below(2))),
+        const float mantissa = 1.0f + random.uniform();
+        const float d = std::ldexp(mantissa, 126 + static_cast<int>(random.below(2))),
                     plane = std::ldexp(1.0f + random.uniform(), 124);
         const Interval near = slab_ends(0.0f, d, plane, infinity),
                        far = slab_ends(0.0f, d, -infinity, plane);

@@ -83,7 +83,8 @@ Shares shares_of(const Input& input) {
 }
 
 float some_float(Pcg32& random) {
-    const float size = std::ldexp(1.0f + random.uniform(), static_cast<int>(random.below(16)) - 8);
+    const float mantissa = 1.0f + random.uniform();
+    const float size = std::ldexp(mantissa, static_cast<int>(random.below(16)) - 8);
     return random.below(2) ? size : -size;
 }
 
