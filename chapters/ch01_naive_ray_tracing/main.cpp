@@ -49,7 +49,6 @@ ChapterOptions read_options(int argc, char** argv) {
 /// The same scene three times: by Algorithm 1 as it should be, as it is printed, and by the
 /// rasteriser.
 void draw_pictures(const ChapterOptions& options) {
-    // [pictures]
     const Scene scene = make_scene(options.scene, options.seed, options.small);
     const RenderSettings settings{.width = options.width,
                                   .height = options.height,
@@ -69,7 +68,6 @@ void draw_pictures(const ChapterOptions& options) {
 
     const Image rasterised =
         render_rasterised(scene, settings.width, settings.height, settings.samples);
-    // [pictures]
 
     print_heading(fmt::format(
         "{}: {} triangles, {} lights, {} x {} pixels, {} each", options.scene,

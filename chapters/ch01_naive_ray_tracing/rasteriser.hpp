@@ -46,7 +46,6 @@ inline constexpr double guard_band = 0x1p20;
 /// in the eye's plane has a projection. A ray tracer knows no such limit.
 inline constexpr double near_fraction = 0x1p-10;
 
-// [coverage_distance]
 /// How far, in pixels, the centre of a pixel may lie from a projected edge where the two renderers
 /// decide differently. Three roundings move an edge:
 /// - of the vertices to subpixels: by up to half of one in x and in y, that is sqrt(1/2) subpixels;
@@ -62,7 +61,6 @@ inline double coverage_distance(const PixelGrid& grid) {
     return std::sqrt(0.5) / subpixels + pixels_per_unit * float_roundoff * (1.0 + r) * (1.0 + r) +
            0x1p-20;
 }
-// [coverage_distance]
 
 /// Triangle after triangle into a z-buffer: one picture, drawn by any number of calls.
 class Rasteriser {
@@ -114,7 +112,6 @@ class Rasteriser {
         std::int64_t x, y;
     };
 
-    // [plane]
     /// The Möller-Trumbore test with all that does not depend on the pixel worked out once: the
     /// rays share their origin, the eye at 0, and u, v and 1 - u - v are quotients of functions
     /// that are linear in the direction, and so in the pixel.
@@ -146,7 +143,6 @@ class Rasteriser {
                     static_cast<float>(u), static_cast<float>(v)};
         }
     };
-    // [plane]
 
     Double3 to_camera(const Point3& point) const {
         return world_to_camera(grid_.camera, grid_.frame, Double3(point));

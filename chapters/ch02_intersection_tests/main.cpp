@@ -19,7 +19,6 @@ namespace {
 /// One ray at the diagonal of a quadrilateral that is cut into two triangles. Exactly, one of them
 /// is hit; who rounds may see it pass between the two, or hit both.
 void one_ray_at_an_edge() {
-    // [one_ray]
     const Point3 a{-1.0625f, -1.125f, -0.125f}, b{0.75f, -0.875f, 0.0625f},
         c{1.1875f, 1.0625f, 0.0f}, d{-1.0625f, 0.8125f, -0.125f};
     const Triangle lower{a, b, c}, upper{a, c, d};
@@ -36,7 +35,6 @@ void one_ray_at_an_edge() {
         table.row(
             {std::string(named.name), answer(lower), answer(upper), std::string(named.about)});
     });
-    // [one_ray]
     print_heading("One ray, and the two triangles beside the edge that it meets");
     table.print();
 }

@@ -61,7 +61,6 @@ ChapterOptions read_options(int argc, char** argv) {
 
 /// The scene by rays through its tree and by the painter; how many pixels are wrong.
 std::uint64_t draw_pictures(const ChapterOptions& options) {
-    // [pictures]
     const Scene scene = make_scene(options.scene, options.seed, options.small);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const RenderSettings settings{
@@ -77,7 +76,6 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
     const DepthBuffer painted =
         paint(bsp.tree(), options.tree.grade, scene.camera, options.width, options.height);
     const DepthBuffer nearest = z_buffer(triangles, scene.camera, options.width, options.height);
-    // [pictures]
 
     std::uint64_t other_pixels = 0;
     for (int y = 0; y < options.height; ++y)
