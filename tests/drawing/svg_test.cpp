@@ -121,7 +121,7 @@ TEST_CASE("an arrow ends in a head whose tip is the line's end") {
     CHECK(contains(svg.document("f"),
                    "<polygon points=\"100,50 88,54.5 88,45.5\" fill=\"#0072b2\"/>"));
 
-    Svg point("f", "", 100, 100);
+    Svg point("", 100, 100);
     point.line({5, 5}, {5, 5}, {.arrow = true});  // no direction: no head, and no NaN
     CHECK(count(point.document("f"), "<polygon") == 0);
 }
@@ -166,9 +166,9 @@ TEST_CASE("of steps, those that end before the drawing does are hidden where no 
 }
 
 TEST_CASE("a group that is not closed, or not open, is a fault that shows") {
-    Svg open("f", "", 1, 1);
+    Svg open("", 1, 1);
     open.begin_group("g");
     CHECK_THROWS_AS(open.document("f"), std::logic_error);
-    Svg closed("f", "", 1, 1);
+    Svg closed("", 1, 1);
     CHECK_THROWS_AS(closed.end_group(), std::logic_error);
 }

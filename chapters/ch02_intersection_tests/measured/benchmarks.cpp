@@ -14,7 +14,6 @@
 namespace {
 
 using namespace space;
-using namespace space::ch02;
 
 constexpr std::size_t shapes = 512, rays_in_all = 64;
 
