@@ -31,7 +31,7 @@ int run_program(std::string_view name, int (*body)(int, char**), int argc, char*
         return static_cast<int>(ExitCode::usage);
     } catch (const std::system_error& error) {
         const bool printing = std::ferror(stdout) != 0;  // fmt::print throws
-        std::fprintf(stderr, "%s: %s%s\n", name,
+        std::fprintf(stderr, "%.*s: %s%s\n", length, name.data(),
                      printing ? "cannot write to standard output: " : "internal error: ",
                      printing ? error.code().message().c_str() : error.what());
         if (printing) return static_cast<int>(ExitCode::bad_output);
