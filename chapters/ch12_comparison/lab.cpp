@@ -126,7 +126,7 @@ RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const 
     const int width = options.common.width, height = options.common.height;
     if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > max_rays)
         throw usage_error(fmt::format("--size {}x{}: more than {} rays", width, height, max_rays));
-    RaySet set{camera_rays(camera, width, height),
+    RaySet set{camera_rays({camera, width, height}),
                fmt::format("--camera {} --size {}x{}", camera_text(camera), width, height)};
     if (options.diffuse == 0) return set;
 

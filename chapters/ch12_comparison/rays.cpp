@@ -65,16 +65,6 @@ std::string hits_bytes(std::span<const HitRecord> hits) {
     return {reinterpret_cast<const char*>(hits.data()), hits.size_bytes()};
 }
 
-std::vector<Ray> camera_rays(const Camera& camera, int width, int height) {
-    const CameraFrame frame(camera);
-    std::vector<Ray> rays;
-    rays.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            rays.push_back(camera_ray(camera, frame, x + 0.5, y + 0.5, width, height));
-    return rays;
-}
-
 std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<const Ray> rays,
                               std::span<const HitRecord> hits, std::size_t count,
                               std::uint64_t seed) {

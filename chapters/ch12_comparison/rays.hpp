@@ -53,9 +53,6 @@ std::vector<Ray> read_rays(const std::filesystem::path& file);
 /// The bytes of a hits file.
 std::string hits_bytes(std::span<const HitRecord> hits);
 
-/// One ray through the centre of each pixel, row by row from the top left.
-std::vector<Ray> camera_rays(const Camera& camera, int width, int height);
-
 /// `count` rays that leave the surface where the given rays hit it, spread evenly over the hits in
 /// their order, each cosine-distributed about the normal on the side that its ray came from. None
 /// where there is no hit.

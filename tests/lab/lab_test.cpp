@@ -196,7 +196,7 @@ TEST_CASE("diffuse rays leave the hit surfaces on the camera's side with the cos
     const std::vector<Triangle> triangles = mesh.triangles();
     const Naive<> naive = Naive<>::build(triangles);
     const std::vector<Ray> camera =
-        camera_rays({.eye = {0.5f, 0.5f, 4.0f}, .target = Point3(0.5f)}, 64, 64);
+        camera_rays({Camera{.eye = {0.5f, 0.5f, 4.0f}, .target = Point3(0.5f)}, 64, 64});
     std::vector<HitRecord> hits(camera.size());
     trace<NoCounts>(naive, {camera, hits});
     std::vector<std::size_t> starts;
