@@ -2,6 +2,7 @@
 // of the interval.
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 #include "tests/oracle/moller_trumbore_bound.hpp"
 #include "tests/suite/accelerator_suite.hpp"

@@ -1,5 +1,6 @@
 #include "chapters/ch03_bsp_trees/bsp.hpp"
 
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/random.hpp"
 #include "common/scene.hpp"
 #include "tests/suite/accelerator_suite.hpp"
@@ -70,17 +71,13 @@ TEST_CASE("the splitters G, E, B, A give the sets and the tree that Heinonen16 p
 }
 
 TEST_CASE("the suite: BSP tree") {
-    check_accelerator<Bsp<>, FilteredExact>(
-        "bsp", [](std::span<const Triangle> t) { return Bsp<>::build(t); });
+    run_suite<Bsp>("bsp");
 }
 
-TEST_CASE("the suite: BSP tree with free planes, over the exact test") {
-    const SuiteReport report = check_accelerator<Bsp<FilteredExact>, FilteredExact>(
-        "bsp, free planes, exact test", [](std::span<const Triangle> t) {
-            return Bsp<FilteredExact>::build(t, {.splitter = BspConfig::SplitterChoice::free});
-        });
-    CHECK(report.exact.wrong() == 0);
-    CHECK(report.exact.beyond_bound == 0);
+TEST_CASE("the suite: BSP tree with free planes") {
+    check_accelerator<Bsp<>>("bsp, free planes", [](std::span<const Triangle> t) {
+        return Bsp<>::build(t, {.splitter = BspConfig::SplitterChoice::free});
+    });
 }
 
 TEST_CASE(
@@ -102,7 +99,7 @@ TEST_CASE(
             return true;
         }
     });
-    check_accelerator<Bsp<>, FilteredExact>("bsp, shared", build, options);
+    check_accelerator<Bsp<>>("bsp, shared", build, options);
     CHECK(options.scenes.size() > 18);
     CHECK(std::find(refused.begin(), refused.end(), "equal centroids") != refused.end());
     CHECK(std::find(refused.begin(), refused.end(), "whole numbers") != refused.end());

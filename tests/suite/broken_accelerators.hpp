@@ -2,7 +2,7 @@
 /// Naive tracing with one fault each: the suite must catch them, and call them by name.
 #pragma once
 
-#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 
 #include <unistd.h>
 
@@ -112,13 +112,13 @@ class Broken {
 
   private:
     static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
-        std::optional<Hit> hit = MollerTrumbore::intersect(ray, triangle);
+        std::optional<Hit> hit = FilteredExact::intersect(ray, triangle);
         if (flaw == Flaw::open_interval && hit && (hit->t == ray.tmin || hit->t == ray.tmax))
             return std::nullopt;
         if (flaw == Flaw::invents_hits && !hit) {
             const Point3 fourth =
                 triangle.b + (triangle.c - triangle.a);  // the parallelogram's other half
-            return MollerTrumbore::intersect(ray, {triangle.b, fourth, triangle.c});
+            return FilteredExact::intersect(ray, {triangle.b, fourth, triangle.c});
         }
         return hit;
     }

@@ -1,10 +1,12 @@
-// Naive tracing with Möller-Trumbore in double: through the suite, and against the exact oracle.
+// Naive tracing through the suite, and against the exact oracle: with the exact test, with which it
+// is what every structure is measured by, and with chapter 1's.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 
 #include "common/mesh.hpp"
 #include "common/parallel.hpp"
 #include "common/scene.hpp"
 #include "tests/suite/accelerator_suite.hpp"
+#include "tests/suite/test_rays.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -13,9 +15,9 @@ namespace space {
 namespace {
 
 #ifdef BOOK_SANITIZED
-constexpr int random_rays = 1'000, aimed_rays = 300, mesh_rays = 30;
+constexpr int random_rays = 1'000, aimed_rays = 300, mesh_rays = 30, exact_rays = 20;
 #else
-constexpr int random_rays = 20'000, aimed_rays = 10'000, mesh_rays = 600;
+constexpr int random_rays = 20'000, aimed_rays = 10'000, mesh_rays = 600, exact_rays = 1'000;
 #endif
 
 /// As many as are worth starting for the oracle, which is slow.
@@ -39,11 +41,34 @@ std::vector<Ray> rays_of(int count, const std::function<TestRay()>& make) {
     return rays;
 }
 
+SuiteReport check_against_oracle(int rays_per_scene) {
+    SuiteOptions options;
+    options.exact_rays = rays_per_scene;
+    const SuiteReport report = check_accelerator<Naive<FilteredExact>>(
+        "naive, filtered-exact",
+        [](std::span<const Triangle> triangles) { return Naive<FilteredExact>::build(triangles); },
+        options);
+    CHECK(report.exact.wrong() == 0);
+    CHECK(report.exact.rounded_t == 0);
+    CHECK(report.exact[Agreement::interval_end] == 0);
+    return report;
+}
+
 }  // namespace
 
-TEST_CASE("the suite: naive tracing") {
-    check_accelerator<Naive<>>(
+TEST_CASE(
+    "naive tracing with the exact test gives exact arithmetic's answers to the suite's rays") {
+    CHECK(check_against_oracle(exact_rays).exact.examined() > std::size_t{25} * exact_rays);
+}
+// By hand, a minute of two cores: naive_tests "[.big]".
+TEST_CASE("naive tracing with the exact test, every ray of the suite", "[.big]") {
+    const SuiteReport report = check_against_oracle(1'000'000);
+    CHECK(report.exact.examined() == report.rays);
+}
+TEST_CASE("the suite: naive tracing with chapter 1's test") {
+    const SuiteReport report = check_accelerator<Naive<>, MollerTrumbore>(
         "naive", [](std::span<const Triangle> triangles) { return Naive<>::build(triangles); });
+    CHECK(report.naive_wrong == 0);
 }
 
 TEST_CASE("naive tracing is exactly right on 10^5 random rays over five scenes") {

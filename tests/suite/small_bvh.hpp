@@ -3,7 +3,7 @@
 /// itself is tested with. (How to build a good one is the matter of chapter 7.)
 #pragma once
 
-#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "common/accelerator.hpp"
 #include "tests/suite/tree_check.hpp"
 
@@ -125,7 +125,7 @@ class SmallBvh {
         counts.visit_node();
         for (const std::uint32_t id : node.triangles) {
             counts.test_triangle();
-            if (std::optional<Hit> hit = MollerTrumbore::intersect(ray, triangles_[id])) {
+            if (std::optional<Hit> hit = FilteredExact::intersect(ray, triangles_[id])) {
                 hit->triangle = id;
                 if (!best || nearer(*hit, *best)) best = hit;
             }
