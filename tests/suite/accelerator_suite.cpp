@@ -287,13 +287,14 @@ class Examiner {
         return ExactOracle::build(scene_->triangles).hits(ray);
     }
     /// Whether another answer than the naive one is to be accepted: where the triangle test may
-    /// err, and did. It took another triangle for the nearest; or it misplaced t, and in front to
-    /// back order a hit within the error of its t is the last one that is looked for.
+    /// err, and did. It took another triangle for the nearest; or it placed a triangle too near,
+    /// and a hit between there and the triangle's true place ended the search in front to back
+    /// order.
     bool naive_is_wrong(const Ray& ray, const Answer& naive, const Answer& got) {
         if (test_ == Over::filtered_exact) return false;
         const std::vector<ExactHit> hits = exact_hits(ray);
-        const bool misplaced = naive && got && !hits.empty() && naive->t != hits.front().t &&
-                               std::abs(naive->t - got->t) <= 8 * 0x1p-24f * std::abs(got->t);
+        const bool misplaced = naive && got && !hits.empty() && naive->t < hits.front().t &&
+                               naive->t <= got->t && got->t <= hits.front().t;
         const bool wrong = !is_right(hits, naive) || misplaced;
         report_.naive_wrong += wrong;
         return wrong;
