@@ -71,6 +71,7 @@ endmacro()
 #   chNN_library   the subject: its *.cpp and those of folders of its own, but main.cpp (where it has any)
 #   chNN_measured  measured/*.cpp (where it has any)
 #   the program    main.cpp and figures/*.cpp
+#   chNN_tables    main.cpp alone, for ./book try
 #   chNN_benchmarks  measured/benchmarks.cpp
 # and a test that --small prints measured/expected_small.txt.
 function(add_chapter)
@@ -116,6 +117,16 @@ function(add_chapter)
     set_target_properties(${chapter} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
     add_dependencies(programs ${chapter})
     book_built("chapter ${chapter}")
+
+    # For ./book try, the same without figures, which are most of what a change of the subject compiles.
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/no_figures.cpp CONTENT
+"#include \"common/program/chapter.hpp\"
+
+const space::Chapter space::this_chapter{\"${chapter}\", {}};
+" @ONLY)
+    add_executable(${short}_tables EXCLUDE_FROM_ALL ${dir}/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/no_figures.cpp)
+    target_link_libraries(${short}_tables PRIVATE ${libraries} book_flags)
+    set_target_properties(${short}_tables PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
     if(EXISTS ${dir}/measured/benchmarks.cpp AND benchmark_FOUND)
         add_executable(${short}_benchmarks EXCLUDE_FROM_ALL ${dir}/measured/benchmarks.cpp)
