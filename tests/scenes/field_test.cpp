@@ -362,6 +362,15 @@ TEST_CASE("STL in bytes is told from text by its contents, whatever its size", "
     }
 }
 
+TEST_CASE("STL: 0 and -0 are one place", "[mesh]") {
+    const test::Folder folder;
+    const auto facet = [](const char* a) {
+        return fmt::format("facet\nvertex {} 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n", a);
+    };
+    const auto file = folder.write("a.stl", "solid\n" + facet("0") + facet("-0") + "endsolid\n");
+    CHECK(load_mesh(file).vertices.size() == 3);
+}
+
 /// Every triangle with the number of its attribute bytes, and as many bytes as stated.
 std::string with_attributes(std::uint16_t number, std::size_t given) {
     std::string content = binary_stl.substr(0, 84);

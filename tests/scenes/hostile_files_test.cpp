@@ -11,6 +11,7 @@
 namespace space {
 namespace {
 
+using namespace std::string_literals;
 using test::bytes, test::complaint, test::largest_allocation;
 
 const std::string ply_head = "ply\nformat ascii 1.0\n";
@@ -278,7 +279,21 @@ TEST_CASE("truncated anywhere or with wrong bytes, a file gives a sound mesh or 
         {"d.stl", whole_stl + whole_stl},
         {"e.ply", whole_binary_ply},
         {"f.ply", binary_ply("binary_big_endian", 3, 1, big_endian)},
-        {"g.stl", test::binary_stl(std::vector{one, one}, 2)}};
+        {"g.stl", test::binary_stl(std::vector{one, one}, 2)},
+        {"h.off", "OFF3 1 0\n0 0 0 1\n0 0 # x\n0 1 0 3 0\n1 2\n"},
+        {"i.obj", "\xEF\xBB\xBFmg 1\r\nv 0 0 \\ \r\n0\r\nv 1 0 0\rv 0 1 0\r# C:\\\nf 1 \\\n2 3"},
+        {"j.obj",
+         "v 0 0 0\nv 6 0 0\nv 6 6 0\nv 0 6 0\nv 0 0 0\nv 2 2 0\nv 2 4 0\nv 4 4 0\nv 4 2 0\n"
+         "v 2 2 0\nf 1 2 3 4 5 6 7 8 9 10\n"},
+        {"k.ply", ply_head + "element vertex 3\n" + xyz +
+                      "element tristrips 1\nproperty list char short vertex_index\nend_header\n" +
+                      points + "5 0 1 2 -1 0\n"},
+        {"l.ply",
+         "ply\rformat binary_little_endian 1.0\relement vertex 3\rproperty list uchar ushort "
+         "a\rproperty char x\rproperty char y\rproperty uchar z\relement face 1\rproperty "
+         "list ushort uchar vertex_indices\rend_header\r" +
+             std::string("\0\0\0\0\1ab\1\0\0\0\0\1\0\3\0\0\1\2", 19)},
+        {"m.stl", test::binary_stl({&one, 1}, 1).substr(0, 132) + "\2\0ab"s}};
     const auto check = [&](const char* name, const std::string& content) {
         const std::filesystem::path file = folder.write(name, content);
         largest_allocation = 0;
