@@ -14,7 +14,7 @@ const ProgramInfo program{.name = "ch00_test",
                           .defaults = {.scene = "bunny", .seed = 7, .width = 320, .height = 200}};
 
 Options parsed(std::vector<std::string> words, const std::function<void(CLI::App&)>& more = {}) {
-    words.insert(words.begin(), program.name);
+    words.emplace(words.begin(), program.name);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
