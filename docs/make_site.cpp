@@ -38,14 +38,19 @@ void copy_mathjax(const fs::path& from, const fs::path& to) {
 /// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
 void run_doxygen(const docs::Places& places, const fs::path& site) {
     const fs::path& work = places.pages;
-    const std::string settings =
+    std::string settings =
         read_file(fs::path(BOOK_DOXYFILE)) + docs::figure_aliases(places) +
         fmt::format(
-            "LAYOUT_FILE = \"{0}/layout.xml\"\nINPUT += \"{0}\"\nFILE_PATTERNS += *.dox\n"
-            "EXCLUDE_PATTERNS += \"{2}/docs/*.dox\" \"{2}/chapters/*.dox\"\n"
+            "LAYOUT_FILE = \"{0}/layout.xml\"\n"
             "STRIP_FROM_PATH = \"{0}/texts\" \"{2}\"\nEXAMPLE_PATH += \"{0}\"\n"
             "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
             work.string(), site.string(), BOOK_ROOT);
+    // Each text by its name: patterns, which could leave out the texts as they were written, fail
+    // in a folder with an umlaut.
+    std::set<fs::path> texts;
+    for (const auto& entry : fs::recursive_directory_iterator(work))
+        if (entry.path().extension() == ".dox") texts.insert(entry.path());
+    for (const fs::path& text : texts) settings += fmt::format("INPUT += \"{}\"\n", text.string());
     write_file(work / "Doxyfile", settings);
     fs::create_directories(site);
     const std::string command =
