@@ -24,29 +24,26 @@ struct PlaneCrossing {
 };
 
 // [cross_plane]
-/// Height over the plane and slope along the ray are known to within errors like side_filter's;
-/// t = -height / slope to within (height_error + |t| slope_error) / (|slope| - slope_error). Where
-/// the slope's sign is not known, the ray may cross anywhere, unless its whole way [enter, leave]
-/// stays clear of the plane.
+/// Of height over the plane and slope along the ray half the error is spare: t = -height / slope is
+/// off by at most (height.error + |t| slope.error) / |slope|, where |slope| > 2 slope.error, and a
+/// third of this pays for the roundings of t, of the error and of their sum. Where the slope is
+/// smaller, the ray may cross anywhere, unless its whole way [enter, leave] stays clear of the
+/// plane.
 template <int D>
 PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, double enter,
                           double leave) {
-    const Double<D> from = Double<D>(ray.origin) - Double<D>(plane.through[0]);
-    const Double<D> direction{ray.direction};
-    const double height = glm::dot(plane.normal, from), slope = glm::dot(plane.normal, direction);
-    const double height_error = sum_roundings * plane.size * one_norm<D>(from);
-    const double slope_error = sum_roundings * plane.size * one_norm<D>(direction);
-    if (std::abs(slope) > 2.0 * slope_error) {
-        const double t = -height / slope;
-        const double error =
-            (height_error + std::abs(t) * slope_error) / (std::abs(slope) - slope_error);
-        return {slope < 0.0, t - error, t + error};
+    const Estimate height =
+        along_normal(plane, Double<D>(ray.origin) - Double<D>(plane.through[0]));
+    const Estimate slope = along_normal(plane, Double<D>(ray.direction));
+    if (std::abs(slope.value) > 2.0 * slope.error) {
+        const double t = -height.value / slope.value;
+        const double error = (height.error + std::abs(t) * slope.error) / std::abs(slope.value);
+        return {slope.value < 0.0, t - error, t + error};
     }
-    const double reach =
-        std::max(std::abs(enter), std::abs(leave)) * (std::abs(slope) + slope_error);
-    if (std::abs(height) > height_error + reach)
-        return {height > 0.0, infinity, infinity};  // never
-    return {height > 0.0, -infinity, infinity};
+    const double way = std::max(std::abs(enter), std::abs(leave));
+    if (std::abs(height.value) > height.error + way * (std::abs(slope.value) + slope.error))
+        return {height.value > 0.0, infinity, infinity};  // never
+    return {height.value > 0.0, -infinity, infinity};
 }
 // [cross_plane]
 

@@ -172,20 +172,21 @@ std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>
                                                const SplitPlane<D>& plane) {
     if (before<D>(q, p)) return meet_in_double<D>(q, p, plane);
     const Double<D> start(p), way = Double<D>(q) - start, anchor(plane.through[0]);
-    const double of_p = plane.distance(start), of_q = plane.distance(Double<D>(q)),
-                 difference = of_p - of_q;
-    const double p_error = sum_roundings * plane.size * one_norm<D>(start - anchor);
-    const double difference_error =
-        p_error + sum_roundings * plane.size * one_norm<D>(Double<D>(q) - anchor);
+    const Estimate at_p = along_normal(plane, start - anchor),
+                   at_q = along_normal(plane, Double<D>(q) - anchor);
+    const double difference = at_p.value - at_q.value, difference_error = at_p.error + at_q.error;
     const double left = std::abs(difference) - difference_error;
     if (!(left > 0.0)) return std::nullopt;
-    const double s = of_p / difference, s_error = (p_error + std::abs(s) * difference_error) / left;
+    const double s = at_p.value / difference,
+                 s_error = (at_p.error + std::abs(s) * difference_error) / left;
     if (!(s_error < good_enough)) return std::nullopt;
     return Approximation<D>{start + s * way, (s_error + sum_roundings) * one_norm<D>(way) +
                                                  sum_roundings * one_norm<D>(start)};
 }
 
-/// Where three planes meet, by Cramer's rule about a point nearby, in double.
+/// Where three planes meet, by Cramer's rule about a point nearby, in double. A term of the
+/// determinant carries at most 17 roundings (four in each normal, two products, three sums), one of
+/// a numerator 20; 2 sum_roundings are 32, and pay for the bound's own, too.
 std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const SplitPlane<3>& b,
                                                const SplitPlane<3>& c) {
     const Double3 near(a.through[0]);

@@ -110,7 +110,8 @@ inline Differences differences(const DepthBuffer& one, const DepthBuffer& other)
         ++result.pixels;
         result.covered += a.t < infinity;
         if (a.triangle == b.triangle && (a.t < infinity) == (b.t < infinity)) continue;
-        const bool tied = std::abs(double{a.t} - double{b.t}) <= tolerance * double{a.t};
+        const bool both = a.t < infinity && b.t < infinity;
+        const bool tied = both && std::abs(double{a.t} - double{b.t}) <= tolerance * double{a.t};
         ++(tied ? result.same_depth : result.wrong);
     }
     return result;

@@ -13,8 +13,8 @@ namespace space {
 
 /// Half the distance from 1 to the next double: the largest relative error of one rounding.
 inline constexpr double double_roundoff = 0x1p-53;
-/// Of a product of three factors on its way into a sum, the share that roundings change: eight of
-/// them (the text counts them), and as much again for the roundings of the bound.
+/// What a product of three factors may change on its way into a sum, as a part of it: twice the
+/// eight roundings that along_normal counts.
 inline constexpr double sum_roundings = 16.0 * double_roundoff;
 
 /// |v|_1.
@@ -73,18 +73,28 @@ SplitPlane<D> axis_plane(int axis, float position) {
     }
 }
 
+/// A computed number, and how far off it may be.
+struct Estimate {
+    double value, error;
+};
+
 // [side_filter]
-/// The side of a point known to within `error` in every coordinate: 1 in front, -1 behind, nothing
-/// where double cannot tell. A term of the distance carries at most eight roundings (the
-/// differences, the products and sums of the normal, the product and the sums of the dot product);
-/// sum_roundings covers them and the bound's own.
+/// normal . v, where v is known but for one rounding of each coordinate. A term of the sum carries
+/// at most eight roundings: of two differences, their product and a sum in the normal, of v, of the
+/// product with it, and of two sums. sum_roundings are twice as many: half of the error is spare.
 template <int D>
-std::optional<int> side_filter(const SplitPlane<D>& plane, const Double<D>& p, double error) {
-    const Double<D> from = p - Double<D>(plane.through[0]);
-    const double distance = glm::dot(plane.normal, from);
-    const double bound = plane.size * (sum_roundings * one_norm<D>(from) + 2.0 * error);
-    if (distance > bound) return 1;
-    if (distance < -bound) return -1;
+Estimate along_normal(const SplitPlane<D>& plane, const Double<D>& v) {
+    return {glm::dot(plane.normal, v), sum_roundings * plane.size * one_norm<D>(v)};
+}
+
+/// The side of a point known to within `off` in every coordinate: 1 in front, -1 behind, nothing
+/// where double cannot tell.
+template <int D>
+std::optional<int> side_filter(const SplitPlane<D>& plane, const Double<D>& p, double off) {
+    const Estimate distance = along_normal(plane, p - Double<D>(plane.through[0]));
+    const double bound = distance.error + 2.0 * plane.size * off;
+    if (distance.value > bound) return 1;
+    if (distance.value < -bound) return -1;
     return std::nullopt;
 }
 // [side_filter]
