@@ -81,7 +81,7 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
     for (int y = 0; y < options.height; ++y)
         for (int x = 0; x < options.width; ++x)
             other_pixels += by_tree.image.at(x, y) != by_all.image.at(x, y);
-    const Differences painter = differences(painted, nearest);
+    const PixelDifferences painter = pixel_differences(painted, nearest);
 
     print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
                               with_commas(triangles.size()), options.width, options.height));

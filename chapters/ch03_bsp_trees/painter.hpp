@@ -99,12 +99,12 @@ inline Image picture_of(const Scene& scene, const DepthBuffer& shown) {
 
 /// Pixels in which two pictures show different triangles. Where both lie at one depth, but for
 /// rounding to float, either is right.
-struct Differences {
+struct PixelDifferences {
     std::uint64_t pixels = 0, covered = 0, same_depth = 0, wrong = 0;
 };
-inline Differences differences(const DepthBuffer& one, const DepthBuffer& other) {
+inline PixelDifferences pixel_differences(const DepthBuffer& one, const DepthBuffer& other) {
     constexpr double tolerance = 8.0 * float_roundoff;
-    Differences result;
+    PixelDifferences result;
     for (std::size_t i = 0; i < one.pixels.size(); ++i) {
         const Hit &a = one.pixels[i], &b = other.pixels[i];
         ++result.pixels;

@@ -62,8 +62,8 @@ TEST_CASE("the painter shows in every pixel what the z-buffer shows, from any ey
         const BspTree<3> tree = BspBuilder<3>::build(soup, {.grade = grade});
         CHECK(tree.fragments.size() > 2 * soup.size());
         for (const Camera& camera : cameras()) {
-            const Differences d = differences(paint(tree, grade, camera, width, height),
-                                              z_buffer(soup, camera, width, height));
+            const PixelDifferences d = pixel_differences(paint(tree, grade, camera, width, height),
+                                                         z_buffer(soup, camera, width, height));
             CHECK(d.pixels == width * height);
             CHECK(d.covered > width * height / 10);
             CHECK(d.wrong == 0);
@@ -75,7 +75,7 @@ TEST_CASE("a ring of triangles is painted right in pieces, and wrong in whole tr
     const DepthBuffer truth = z_buffer(ring(), above_ring, width, height);
     const auto painted = [&](BspConfig::Straddlers straddlers) {
         const BspTree<3> tree = BspBuilder<3>::build(ring(), {.straddlers = straddlers});
-        return differences(paint(tree, Grade::exact, above_ring, width, height), truth);
+        return pixel_differences(paint(tree, Grade::exact, above_ring, width, height), truth);
     };
     CHECK(painted(BspConfig::Straddlers::split).wrong == 0);
     CHECK(painted(BspConfig::Straddlers::share).wrong > 0);
@@ -118,7 +118,8 @@ TEST_CASE("differences tell a tie from another triangle, and from none") {
     one.at(2, 0) = {.t = 2.0f, .triangle = 3};
     other.at(2, 0) = {.t = 2.001f, .triangle = 4};
     one.at(3, 0) = {.t = 2.0f, .triangle = 0};  // the triangle that an empty pixel names, too
-    const Differences d = differences(one, other), turned = differences(other, one);
+    const PixelDifferences d = pixel_differences(one, other),
+                           turned = pixel_differences(other, one);
     CHECK(d.pixels == 4);
     CHECK(d.covered == 4);
     CHECK(d.same_depth == 1);
