@@ -43,11 +43,12 @@ inline constexpr double float_roundoff = 0x1p-24;
 /// from. So each coordinate is first moved in the direction of n's, by two roundings of the
 /// triangle's largest coordinate m. With e = 2^-24 rounding takes back at most e m (1 + 2 e):
 ///     n . (P' - P) >= sum |n_i| (2 e m - e m (1 + 2 e)) > 0.99 e m |n|.
-/// The double arithmetic in P and in the ray-triangle test errs by less than 2^-47 w^3, w being the
-/// triangle's size (w <= 2 m): eight roundings of products of three vectors, each of a one-norm up
-/// to sqrt(3) w, are 2^-47.6 w^3. That is less for every triangle but needles whose area is below
-/// 2^-20 of their length squared, as e m |n| >= 2^-25 w 2^-19 w^2. The bound grows with the
-/// distance from the world's origin, as the float grid does; it is no scene's epsilon.
+/// This product is the numerator of t in the ray-triangle test, a volume of P' - a and two edges.
+/// Computed in double it is off by at most 8 * 2^-53 times the product of their 1-norms, each up to
+/// sqrt(3) times the triangle's size w: 2^-47.6 w^3. As w <= 2 sqrt(3) m, the product is more than
+/// that for every triangle but needles whose area is below 2^-22 of their length squared. The bound
+/// grows with the distance from the world's origin, as the float grid does; it is no scene's
+/// epsilon.
 inline Point3 shadow_origin(const Triangle& triangle, const Double3& point, const Double3& n) {
     const Aabb box = bounds(triangle);
     const Point3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));

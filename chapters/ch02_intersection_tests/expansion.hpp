@@ -10,10 +10,13 @@
 
 namespace space {
 
-/// The sum of `size` doubles, smallest first, none of them zero and no two with common bits; at
-/// most N of them. The sign is the last one's. Sums and products are exact as long as nothing over-
-/// or underflows: a product of k floats is a multiple of 2^(-149 k) below 2^(128 k), so up to seven
-/// factors are safe.
+/// The sum of `size` doubles, smallest first, none of them zero, at most N of them. They are
+/// nonadjacent: between the highest bit of one and the lowest of the next at least one bit is zero.
+/// (Without common bits is not enough: -(2^7 - 2^-46), -(2^60 - 2^7), 2^60 have none, their sum is
+/// 2^-46, and adding them up in double gives 0.) The operations below keep it so, since rounding
+/// ties to even (Shewchuk's theorems 10, 12 and 19). The sign is the last one's. Sums and products
+/// are exact as long as nothing over- or underflows: a product of k floats is a multiple of 2^(-149
+/// k) below 2^(128 k), so up to seven factors are safe.
 template <std::size_t N>
 struct Expansion {
     std::array<double, N> part{};
@@ -23,7 +26,9 @@ struct Expansion {
         if (value != 0.0) part[size++] = value;
     }
     int sign() const { return size == 0 ? 0 : part[size - 1] > 0.0 ? 1 : -1; }
-    /// The nearest double, up to one unit in its last place.
+    /// The sum, off by at most one unit in the last place: each part is below a half of the next,
+    /// so the partial sums are below a half, a quarter ... of the whole, and so are their
+    /// roundings.
     double value() const {
         double sum = 0.0;
         for (std::size_t i = 0; i < size; ++i) sum += part[i];
@@ -36,7 +41,8 @@ struct TwoParts {
     double high, low;
 };
 
-/// a + b = high + low exactly, high the rounded sum (Knuth's TwoSum; Shewchuk's theorem 7).
+/// a + b = high + low exactly, high the rounded sum (Knuth 1998, section 4.2.2, theorem B;
+/// Shewchuk's theorem 7).
 inline TwoParts two_sum(double a, double b) {
     const double high = a + b;
     const double b_part = high - a;

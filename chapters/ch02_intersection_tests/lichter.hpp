@@ -5,6 +5,7 @@
 
 #include "common/accelerator.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace space {
@@ -14,6 +15,11 @@ namespace space {
 /// (chapter 2, "where it fails"). Lichter23 names an EPSILON and gives no value; this is the usual
 /// one.
 inline constexpr float lichter_epsilon = 1e-6f;
+
+/// No hit where a product overflowed.
+inline std::optional<Hit> finite(const Hit& hit) {
+    return std::isfinite(hit.t + hit.u + hit.v) ? std::optional(hit) : std::nullopt;
+}
 
 /// As Lichter23 starts: u and v are lengths of cross products over the length of the normal, three
 /// square roots.
@@ -34,7 +40,7 @@ struct LichterFirst {
         if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f)
             return std::nullopt;
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
-        return Hit{.t = t, .u = u, .v = v};
+        return finite({.t = t, .u = u, .v = v});
     }
     // [lichter_first]
 };
@@ -57,9 +63,9 @@ struct LichterImproved {
         const Vector3 of_b = glm::cross(a - c, p - c);
         if (glm::dot(of_b, n) < 0.0f) return std::nullopt;
         const float square = glm::dot(n, n);
-        return Hit{.t = t,
-                   .u = std::sqrt(glm::dot(of_b, of_b) / square),
-                   .v = std::sqrt(glm::dot(of_c, of_c) / square)};
+        return finite({.t = t,
+                       .u = std::sqrt(glm::dot(of_b, of_b) / square),
+                       .v = std::sqrt(glm::dot(of_c, of_c) / square)});
     }
     // [lichter_improved]
 };
@@ -82,7 +88,7 @@ struct LichterFewerRoots {
         if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f)
             return std::nullopt;
         if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
-        return Hit{.t = t, .u = u, .v = v};
+        return finite({.t = t, .u = u, .v = v});
     }
 };
 
@@ -102,9 +108,9 @@ struct LichterEarlyExit {
         const Vector3 of_b = glm::cross(a - c, p - c);
         if (glm::dot(of_b, n) < 0.0f) return std::nullopt;
         const float length = std::sqrt(glm::dot(n, n));
-        return Hit{.t = t,
-                   .u = std::sqrt(glm::dot(of_b, of_b)) / length,
-                   .v = std::sqrt(glm::dot(of_c, of_c)) / length};
+        return finite({.t = t,
+                       .u = std::sqrt(glm::dot(of_b, of_b)) / length,
+                       .v = std::sqrt(glm::dot(of_c, of_c)) / length});
     }
 };
 

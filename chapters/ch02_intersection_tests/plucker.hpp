@@ -6,6 +6,7 @@
 
 #include "common/accelerator.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace space {
@@ -27,9 +28,9 @@ struct Plucker {
         const float sum = u + v + w;
         const Vector3 n = glm::cross(b - a, c - a);
         const float slope = glm::dot(n, ray.direction);
-        if (slope == 0.0f || sum == 0.0f) return std::nullopt;
+        if (slope == 0.0f || sum == 0.0f || !std::isfinite(sum)) return std::nullopt;
         const float t = glm::dot(n, a) / slope;
-        if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
+        if (!(t >= ray.tmin && t <= ray.tmax) || std::isinf(t)) return std::nullopt;
         return Hit{.t = t, .u = v / sum, .v = w / sum};
     }
     // [plucker]

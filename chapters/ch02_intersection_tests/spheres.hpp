@@ -59,7 +59,8 @@ struct SphereStable {
         if (!(discriminant >= 0.0f)) return std::nullopt;
         const float q = b + std::copysign(std::sqrt(a * discriminant), b);
         const float c = glm::dot(f, f) - r2;
-        const float t0 = std::min(c / q, q / a), t1 = std::max(c / q, q / a);
+        const float other = q == 0.0f ? 0.0f : c / q;  // a tangent at the origin: both roots are 0
+        const float t0 = std::min(other, q / a), t1 = std::max(other, q / a);
         for (const float t : {t0, t1})
             if (t >= ray.tmin && t <= ray.tmax) return t;
         return std::nullopt;
@@ -77,8 +78,8 @@ struct SphereDouble {
         if (!(discriminant >= 0.0)) return std::nullopt;
         const double root = std::sqrt(discriminant);
         const double q = -b - std::copysign(root, b);
-        const auto [t0, t1] = q == 0.0 ? std::pair(0.0, 0.0)
-                                       : std::pair(std::min(c / q, q / a), std::max(c / q, q / a));
+        const double other = q == 0.0 ? 0.0 : c / q;
+        const double t0 = std::min(other, q / a), t1 = std::max(other, q / a);
         for (const double root_t : {t0, t1})
             if (const auto t = static_cast<float>(root_t); t >= ray.tmin && t <= ray.tmax) return t;
         return std::nullopt;

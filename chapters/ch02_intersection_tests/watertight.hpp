@@ -6,8 +6,8 @@
 
 #include "common/accelerator.hpp"
 
+#include <cmath>
 #include <optional>
-#include <utility>
 
 namespace space {
 
@@ -16,7 +16,7 @@ struct Watertight {
     /// The ray with its shear, for many triangles.
     struct Prepared {
         Point3 origin;
-        int kx, ky, kz;  ///< the ray's longest axis is kz; kx, ky keep the winding
+        int kx, ky, kz;  ///< the ray's longest axis is kz
         float sx, sy, sz;
         float tmin, tmax;
     };
@@ -26,9 +26,10 @@ struct Watertight {
         int kz = 0;
         if (size.y > size[kz]) kz = 1;
         if (size.z > size[kz]) kz = 2;
-        int kx = (kz + 1) % 3, ky = (kx + 1) % 3;
+        // The paper exchanges kx and ky where d[kz] < 0, so that the signs below tell front from
+        // back. Here both are hit, and the exchange would turn all signs and nothing else.
+        const int kx = (kz + 1) % 3, ky = (kx + 1) % 3;
         const Vector3& d = ray.direction;
-        if (d[kz] < 0.0f) std::swap(kx, ky);
         return {ray.origin,    kx,           ky,       kz,      d[kx] / d[kz],
                 d[ky] / d[kz], 1.0f / d[kz], ray.tmin, ray.tmax};
     }
@@ -54,7 +55,7 @@ struct Watertight {
         const float t =
             (u * (ray.sz * a[ray.kz]) + v * (ray.sz * b[ray.kz]) + w * (ray.sz * c[ray.kz])) /
             determinant;
-        if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
+        if (!(t >= ray.tmin && t <= ray.tmax) || std::isinf(t)) return std::nullopt;
         return Hit{.t = t, .u = v / determinant, .v = w / determinant};
     }
     // [watertight]

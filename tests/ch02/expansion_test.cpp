@@ -24,8 +24,8 @@ mpq_class exact(const Expansion<N>& e) {
     return sum;
 }
 
-/// No zeros, growing, and each part below the last bit of the next: |part| < lowest set bit of its
-/// successor, so the sign is the last one's.
+/// No zeros, growing, and nonadjacent: |part| is below half of the lowest set bit of its successor,
+/// so a zero bit lies between them.
 template <std::size_t N>
 bool well_formed(const Expansion<N>& e) {
     if (e.size > N) return false;
@@ -35,7 +35,7 @@ bool well_formed(const Expansion<N>& e) {
         int exponent = 0;
         const double mantissa = std::frexp(e.part[i], &exponent);
         const auto bits = static_cast<std::uint64_t>(std::abs(mantissa) * 0x1p53);
-        if (std::abs(e.part[i - 1]) >= std::ldexp(1.0, exponent - 53 + std::countr_zero(bits)))
+        if (std::abs(e.part[i - 1]) >= std::ldexp(0.5, exponent - 53 + std::countr_zero(bits)))
             return false;
     }
     return true;
@@ -97,6 +97,20 @@ TEST_CASE(
             // A determinant: its value cancels where the rows are close.
             REQUIRE(is(ab * double{d} - cd * double{b}, (ra - rb) * rd - (rc - rd) * rb));
         }
+}
+
+TEST_CASE("parts without common bits are not enough for the value, nonadjacent parts are") {
+    Expansion<3> loose;
+    for (const double part : {-(0x1p7 - 0x1p-46), -(0x1p60 - 0x1p7), 0x1p60}) loose.push(part);
+    REQUIRE(exact(loose) == mpq_class(0x1p-46));
+    CHECK_FALSE(well_formed(loose));
+    CHECK(loose.value() == 0.0);
+    // The same numbers added up: one part is left.
+    Expansion<1> first;
+    first.push(0x1p60);
+    const auto sum = first + -(0x1p60 - 0x1p7) + -(0x1p7 - 0x1p-46);
+    CHECK(is(sum, mpq_class(0x1p-46)));
+    CHECK(sum.value() == 0x1p-46);
 }
 
 TEST_CASE("seven factors at the ends of a float's range neither over- nor underflow") {

@@ -142,6 +142,19 @@ RayAndTriangle at_border(Pcg32& random, float (*component)(Pcg32&)) {
     pair.ray.origin = target - static_cast<float>(random.below(4)) * pair.ray.direction;
     return pair;
 }
+/// Whole numbers of 20 bits.
+float long_whole(Pcg32& random) {
+    return static_cast<float>(random.below(1u << 20)) - 0x1p19f;
+}
+/// At the border, but for an origin that is moved along x by less than the filter can tell.
+RayAndTriangle beside_border(Pcg32& random) {
+    RayAndTriangle pair = at_border(random, long_whole);
+    const float x = pair.ray.origin.x;
+    for (Point3* corner : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) corner->x -= x;
+    const float hair = std::ldexp(1.0f, -36 - static_cast<int>(random.below(16)));
+    pair.ray.origin.x = random.below(2) ? hair : -hair;
+    return pair;
+}
 /// In one plane, or nearly.
 RayAndTriangle edge_on(Pcg32& random) {
     RayAndTriangle pair = make_pair({"", Aim::edge}, random);
@@ -170,6 +183,7 @@ const std::vector<Kind>& hostile_kinds() {
          [](Pcg32& random) { return at_border(random, near_power<-8>); }},
         {"denormal", [](Pcg32& random) { return at_border(random, near_power<-140>); }},
         {"huge", [](Pcg32& random) { return at_border(random, near_power<108>); }},
+        {"a hair beside the border", beside_border},
         {"within the plane, or nearly", edge_on},
         {"no area",
          [](Pcg32& random) {
@@ -341,6 +355,14 @@ TEST_CASE("integers decide up to the last of their 127 bits, and no ray that nee
         for (int axis = 0; axis < 3; ++axis) {
             const float size = 1.0f - std::ldexp(1.0f, -1 - static_cast<int>(random.below(24)));
             pair.ray.direction[axis] = random.below(3) ? (random.below(2) ? size : -size) : 0.0f;
+        }
+        if (i % 2) {  // two large components, and one whose last bit lies far below theirs
+            const int low = static_cast<int>(random.below(3));
+            for (int axis = 0; axis < 3; ++axis)
+                pair.ray.direction[axis] =
+                    (random.below(2) ? 1.0f : -1.0f) * (1.0f - 0x1p-24f) *
+                    (axis == low ? std::ldexp(1.0f, -12 - static_cast<int>(random.below(12)))
+                                 : 1.0f);
         }
         // One last bit somewhere.
         (random.below(2) ? pair.ray.origin : pair.triangle.b)[static_cast<int>(random.below(3))] =

@@ -90,6 +90,36 @@ TEST_CASE(
     check(SphereDouble{});
 }
 
+TEST_CASE("a ray that touches the sphere where it starts hits it at t = 0") {
+    // b = 0 and discriminant 0: both roots are 0, and their product over their sum is 0 / 0.
+    for (const Vector3 way : {Vector3(0, 1, 0), Vector3(0, -2, 0), Vector3(0, 0, 3)}) {
+        const Ray ray{{1, 0, 0}, way, -1.0f, 1.0f};
+        CHECK(SphereStable::intersect(ray, {}) == 0.0f);
+        CHECK(SphereDouble::intersect(ray, {}) == 0.0f);
+    }
+}
+
+TEST_CASE(
+    "where a ray leaves the sphere from just inside the stable t has all its digits, and the "
+    "schoolbook's half of them") {
+    Pcg32 random(705);
+    double stable = 0.0, schoolbook = 0.0;
+    for (int i = 0; i < 1'000; ++i) {
+        // f . f - r^2 is a float, exactly: what is lost is lost later.
+        const Ray ray{{1.0f - 0x1p-11f, 0, 0},
+                      {random.uniform(0.25f, 1.0f), random.uniform(), random.uniform()}};
+        const Double3 f{ray.origin}, d{ray.direction};
+        const double a = glm::dot(d, d), b = glm::dot(f, d), c = glm::dot(f, f) - 1.0;
+        const double exact = -c / (b + std::sqrt(b * b - a * c));
+        const auto error = [&](std::optional<float> t) { return std::abs(*t / exact - 1.0); };
+        stable = std::max(stable, error(SphereStable::intersect(ray, {})));
+        schoolbook = std::max(schoolbook, error(SphereSchoolbook::intersect(ray, {})));
+        REQUIRE(error(SphereDouble::intersect(ray, {})) <= 0x1p-24);
+    }
+    CHECK(stable < 16 * 0x1p-24);
+    CHECK(schoolbook > 1000 * 0x1p-24);
+}
+
 TEST_CASE("a plane across an axis is met where the general plane is") {
     Pcg32 random(703);
     for (int i = 0; i < 1'000; ++i) {

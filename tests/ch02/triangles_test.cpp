@@ -102,6 +102,54 @@ TEST_CASE("an absolute epsilon misses small triangles, the sign of the determina
     }
 }
 
+TEST_CASE("the watertight test's second look finds triangles whose edge functions underflow") {
+    for (const float s : {1e-20f, 1e-24f, 1e-30f}) {
+        const Triangle small{{0, 0, 0}, {s, 0, 0}, {0, s, 0}};
+        const Ray ray{{s / 4, s / 4, 1}, {0, 0, -1}};
+        const auto hit = Watertight::intersect(ray, small);
+        if (s > 1e-22f) {  // in double the determinant is a float still
+            REQUIRE(hit);
+            CHECK(hit->t == 1.0f);
+        }
+        CHECK_FALSE(Watertight::intersect({{-s, s / 4, 1}, {0, 0, -1}}, small));
+    }
+    // Rounded products that are equal are told apart: the ray passes beside the edge bc.
+    constexpr float one = 1.0f + 0x1p-23f;
+    const Triangle sliver{{0, 0, 0}, {one, one, 0}, {one * one, one, 0}};
+    CHECK(Watertight::intersect({{0, 0, 1}, {0, 0, -1}}, sliver));
+}
+
+TEST_CASE(
+    "whatever overflows, u and v of a hit are finite, and t in all but Möller & Trumbore's and the "
+    "exact test") {
+    Pcg32 random(609);
+    int hits = 0;
+    for (const float scale : {1e10f, 1e13f, 1e19f, 1e30f, 3e37f})
+        for (const float length : {1.0f, 1e13f, 1e30f, 3e38f})
+            for (int i = 0; i < pairs_each / 100; ++i) {
+                const Triangle triangle{scale * random_vector(random),
+                                        scale * random_vector(random),
+                                        scale * random_vector(random)};
+                Ray ray{.origin = scale * random_vector(random),
+                        .direction = length * random_vector(random)};
+                if (i % 2) ray.direction = length * Vector3(random_direction(random));
+                for_each_named(triangle_tests, [&](std::size_t, const auto& named) {
+                    using Test = TestOf<decltype(named)>;
+                    const auto hit = Test::intersect(ray, triangle);
+                    if (!hit) return;
+                    ++hits;
+                    INFO(named.name << ": " << hit->t << " " << hit->u << " " << hit->v);
+                    REQUIRE(std::isfinite(hit->u));
+                    REQUIRE(std::isfinite(hit->v));
+                    if (std::isinf(hit->t))  // rightly so in double: the exact t is beyond floats
+                        REQUIRE((std::is_same_v<Test, MollerTrumbore> ||
+                                 std::is_same_v<Test, MollerTrumboreFloat> ||
+                                 std::is_same_v<Test, FilteredExact>));
+                });
+            }
+    CHECK(hits > 1'000);
+}
+
 TEST_CASE(
     "no ray leaks through a closed mesh with the watertight or the exact test; with Plücker's at "
     "most a fifth as "
