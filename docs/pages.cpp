@@ -289,6 +289,15 @@ std::string claim_card(const Claim& claim, const Answer* answer) {
     return fmt::format("\\anchor claim_{}\n{}", claim.id, raw(card + "</div>\n"));
 }
 
+constexpr const char* ledger_head =
+    "/*! \\page ledger Claims and verdicts\n\\tableofcontents{HTML:1}\n"
+    "The sources of this book make claims and print numbers. Each chapter's program answers "
+    "those that belong to "
+    "it "
+    "with what it measured, and computes the verdict by a rule that is stated here; no verdict "
+    "is typed in. "
+    "The sources: \\ref bibliography.\n\n";
+
 std::string ledger_page(const Places& places, const std::vector<Chapter>& chapters,
                         const std::vector<Claim>& claims) {
     std::string sections, to_come;
@@ -330,14 +339,7 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
             sections += claim_card(*claim, answered ? &*answer : nullptr);
         }
     }
-    std::string text =
-        "/*! \\page ledger Claims and verdicts\n\\tableofcontents{HTML:1}\n"
-        "The sources of this book make claims and print numbers. Each chapter's program answers "
-        "those that belong to "
-        "it "
-        "with what it measured, and computes the verdict by a rule that is stated here; no verdict "
-        "is typed in. "
-        "The sources: \\ref bibliography.\n\n";
+    std::string text = ledger_head;
     std::string tally;
     for (const char* verdict : {"confirmed", "refuted", "depends"})
         tally +=

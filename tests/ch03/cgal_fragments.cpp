@@ -302,7 +302,6 @@ TilingReport examine_tiling(const BspTree<3>& tree, Grade grade, std::uint32_t e
         const Kernel::Vector_3 normal = normal_of(polygon);
         const Outline whole{project(exact(polygon[0])), project(exact(polygon[1])),
                             project(exact(polygon[2]))};
-
         std::vector<Outline> outlines;
         Number sum(0);
         for (const auto& [fragment, node] : pieces[number]) {

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace space::ch01 {
-std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
-    const auto& [counts, leaks, growth, shares] = measured;
-    const auto linear = [](double slope) { return slope >= 0.9 && slope <= 1.1; };
+namespace {
 
-    // H1 and P1: growth.
+/// H1 and P1: how the times grow.
+std::array<ClaimAnswer, 2> growth_claims(const std::vector<GrowthPoint>& growth) {
+    const auto linear = [](double slope) { return slope >= 0.9 && slope <= 1.1; };
     std::vector<std::string> naive_slopes, rasteriser_slopes;
     std::size_t naive_linear = 0, rasteriser_linear = 0;
     const std::vector<std::string> grown = scenes_of(growth);
@@ -28,7 +29,25 @@ std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
                                           with_commas(static_cast<std::uint64_t>(least->triangles)),
                                           with_commas(static_cast<std::uint64_t>(most->triangles)));
 
-    // H2: the share.
+    return {
+        {{"H1", verdict_of(naive_linear, grown.size()),
+          fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
+          "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on "
+          "every scene, refuted "
+          "if "
+          "on none"},
+         {"P1", verdict_of(rasteriser_linear, grown.size()),
+          fmt::format("log-log slopes between the two largest sizes: {}",
+                      joined(rasteriser_slopes)),
+          range,
+          "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is "
+          "within 0.8 .. 1.2 on "
+          "every "
+          "scene, refuted if on none"}}};
+}
+
+/// H2: the share of the tests.
+ClaimAnswer share_claim(const std::vector<SharePoint>& shares) {
     const auto [lowest, highest] =
         std::minmax_element(shares.begin(), shares.end(),
                             [](const auto& a, const auto& b) { return a.share() < b.share(); });
@@ -45,7 +64,24 @@ std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
                                   : highest->share() <= 0.97 ? Verdict::confirmed
                                                              : Verdict::depends;
 
-    // H3 and H14: counts.
+    return {
+        "H2", share_verdict,
+        fmt::format(
+            "from {:.1f} % ({}, {} triangles) to {:.4f} % ({}, {} triangles); from one size "
+            "of a scene to the next the share rises {} of {} times; log-log slopes of "
+            "the time without tests: {:.2f} to {:.2f}",
+            100.0 * lowest->share(), lowest->scene,
+            with_commas(static_cast<std::uint64_t>(lowest->triangles)), 100.0 * highest->share(),
+            highest->scene, with_commas(static_cast<std::uint64_t>(highest->triangles)), rises,
+            steps, *flattest, *steepest),
+        joined(scenes_of(shares)),
+        "confirmed if the largest share is within 90 .. 97 %, depends (on the number of "
+        "triangles) if it is larger, "
+        "refuted if it is smaller"};
+}
+
+/// H3 and H14: counts.
+std::array<ClaimAnswer, 2> count_claims(const std::vector<SceneCounts>& counts) {
     Winding winding;
     std::uint64_t hits = 0, printed = 0, reversed = 0;
     std::size_t erasing = 0;
@@ -63,47 +99,28 @@ std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
     const bool flips = winding.flipped == winding.triangles && winding.kept == winding.triangles;
 
     return {
-        {"H1", verdict_of(naive_linear, grown.size()),
-         fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
-         "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on "
-         "every scene, refuted "
-         "if "
-         "on none"},
-        {"H2", share_verdict,
-         fmt::format(
-             "from {:.1f} % ({}, {} triangles) to {:.4f} % ({}, {} triangles); from one size "
-             "of a scene to the next the share rises {} of {} times; log-log slopes of "
-             "the time without tests: {:.2f} to {:.2f}",
-             100.0 * lowest->share(), lowest->scene,
-             with_commas(static_cast<std::uint64_t>(lowest->triangles)), 100.0 * highest->share(),
-             highest->scene, with_commas(static_cast<std::uint64_t>(highest->triangles)), rises,
-             steps, *flattest, *steepest),
-         joined(scenes_of(shares)),
-         "confirmed if the largest share is within 90 .. 97 %, depends (on the number of "
-         "triangles) if it is larger, "
-         "refuted if it is smaller"},
-        {"H3", flips ? Verdict::confirmed : Verdict::refuted,
-         fmt::format("of {} triangles {} flip when two vertices are exchanged, {} keep their side "
-                     "when the vertices are "
-                     "turned in a circle",
-                     with_commas(winding.triangles), with_commas(winding.flipped),
-                     with_commas(winding.kept)),
-         joined(counted), "confirmed if all triangles do both"},
-        {"H14", verdict_of(erasing, counts.size()),
-         fmt::format("of {} pixels that hit something {} still show it as printed, {} with the "
-                     "triangles in reverse order",
-                     with_commas(hits), with_commas(printed), with_commas(reversed)),
-         joined(counted),
-         "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, "
-         "refuted if on none"},
-        {"P1", verdict_of(rasteriser_linear, grown.size()),
-         fmt::format("log-log slopes between the two largest sizes: {}", joined(rasteriser_slopes)),
-         range,
-         "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is "
-         "within 0.8 .. 1.2 on "
-         "every "
-         "scene, refuted if on none"},
-    };
+        {{"H3", flips ? Verdict::confirmed : Verdict::refuted,
+          fmt::format("of {} triangles {} flip when two vertices are exchanged, {} keep their side "
+                      "when the vertices are "
+                      "turned in a circle",
+                      with_commas(winding.triangles), with_commas(winding.flipped),
+                      with_commas(winding.kept)),
+          joined(counted), "confirmed if all triangles do both"},
+         {"H14", verdict_of(erasing, counts.size()),
+          fmt::format("of {} pixels that hit something {} still show it as printed, {} with the "
+                      "triangles in reverse order",
+                      with_commas(hits), with_commas(printed), with_commas(reversed)),
+          joined(counted),
+          "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, "
+          "refuted if on none"}}};
+}
+
+}  // namespace
+
+std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
+    const auto [h1, p1] = growth_claims(measured.growth);
+    const auto [h3, h14] = count_claims(measured.counts);
+    return {h1, share_claim(measured.shares), h3, h14, p1};
 }
 
 }  // namespace space::ch01

@@ -29,6 +29,27 @@ const std::vector<TriangleInput>& triangle_inputs() {
     return all;
 }
 
+namespace {
+
+/// The triangle and the ray from origin to target, scaled and shifted as the input says, in float.
+RayAndTriangle placed_pair(const TriangleInput& input, const Double3 (&corner)[3],
+                           const Double3& origin, const Double3& target, const Double3& away,
+                           Pcg32& random) {
+    const double stretch =
+        random.below(2) ? 1.0 : 0.5 + random.uniform_double();  // 1: t = 1 at the target
+    const double scale = std::pow(10.0, input.scale);
+    const Double3 shift =
+        input.shift == 0 ? Double3(0.0) : std::pow(10.0, input.shift) * Double3(1.0, 0.5, -0.25);
+    const auto placed = [&](const Double3& p) { return Point3(scale * p + shift); };
+    const Point3 from = placed(origin), to = placed(target);
+    Vector3 direction(stretch * Double3(to - from));
+    if (direction == Vector3(0.0f)) direction = Vector3(-away);  // rounded to the same point
+    return {{.origin = from, .direction = direction},
+            {placed(corner[0]), placed(corner[1]), placed(corner[2])}};
+}
+
+}  // namespace
+
 RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
     Double3 corner[3] = {Double3(random_vector(random)), Double3(random_vector(random)),
                          Double3(random_vector(random))};
@@ -81,17 +102,7 @@ RayAndTriangle make_pair(const TriangleInput& input, Pcg32& random) {
             origin = target + 1e4 * distance * away;
             break;
     }
-    const double stretch =
-        random.below(2) ? 1.0 : 0.5 + random.uniform_double();  // 1: t = 1 at the target
-    const double scale = std::pow(10.0, input.scale);
-    const Double3 shift =
-        input.shift == 0 ? Double3(0.0) : std::pow(10.0, input.shift) * Double3(1.0, 0.5, -0.25);
-    const auto placed = [&](const Double3& p) { return Point3(scale * p + shift); };
-    const Point3 from = placed(origin), to = placed(target);
-    Vector3 direction(stretch * Double3(to - from));
-    if (direction == Vector3(0.0f)) direction = Vector3(-away);  // rounded to the same point
-    return {{.origin = from, .direction = direction},
-            {placed(corner[0]), placed(corner[1]), placed(corner[2])}};
+    return placed_pair(input, corner, origin, target, away, random);
 }
 
 TriangleMesh bumpy_ball(int levels) {
