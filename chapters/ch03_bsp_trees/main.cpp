@@ -73,9 +73,9 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
     const Rendering by_all =
         render(scene, Naive<FilteredExact>::build(triangles), settings, &naively);
 
-    const DepthBuffer painted =
-        paint(bsp.tree(), options.tree.grade, scene.camera, options.width, options.height);
-    const DepthBuffer nearest = z_buffer(triangles, scene.camera, options.width, options.height);
+    const PixelGrid grid(scene.camera, options.width, options.height);
+    const DepthBuffer painted = paint(bsp.tree(), options.tree.grade, grid);
+    const DepthBuffer nearest = z_buffer(triangles, grid);
 
     std::uint64_t other_pixels = 0;
     for (int y = 0; y < options.height; ++y)

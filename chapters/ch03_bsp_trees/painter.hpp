@@ -15,32 +15,31 @@ namespace space {
 /// Calls pixel(x, y, ray) for the pixels around the corners' picture: for all of them where a
 /// corner lies beside or behind the eye, and so has none.
 template <class Corners, class Pixel>
-void for_pixels_around(const Corners& corners, const Camera& camera, int width, int height,
-                       const Pixel& pixel) {
-    const CameraFrame frame(camera);
+void for_pixels_around(const Corners& corners, const PixelGrid& grid, const Pixel& pixel) {
+    const Camera& camera = grid.camera;
     const double near = near_fraction * glm::distance(Double3(camera.eye), Double3(camera.target));
-    glm::dvec2 low(width, height), high(0.0);
+    const glm::dvec2 size(grid.width, grid.height);
+    glm::dvec2 low = size, high(0.0);
     for (const Double3& corner : corners) {
-        const Double3 seen = world_to_camera(camera, frame, corner);
+        const Double3 seen = world_to_camera(camera, grid.frame, corner);
         const bool behind = depth(seen) < near;
-        const glm::dvec2 at = camera_to_pixel(frame, seen, width, height);
+        const glm::dvec2 at = camera_to_pixel(grid.frame, seen, grid.width, grid.height);
         low = behind ? glm::dvec2(0.0) : glm::min(low, at - 1.0);  // a pixel's room for rounding
-        high = behind ? glm::dvec2(width, height) : glm::max(high, at + 1.0);
+        high = behind ? size : glm::max(high, at + 1.0);
     }
     low = glm::max(low, 0.0);
-    high = glm::min(high, glm::dvec2(width, height));
+    high = glm::min(high, size);
     for (int y = static_cast<int>(low.y); y < high.y; ++y)
-        for (int x = static_cast<int>(low.x); x < high.x; ++x)
-            pixel(x, y, camera_ray(camera, frame, x + 0.5, y + 0.5, width, height));
+        for (int x = static_cast<int>(low.x); x < high.x; ++x) pixel(x, y, grid.ray(x, y));
 }
 
 /// Calls pixel(x, y, ray, hit) for the pixels that show the fragment, with its triangle's hit.
 template <class Pixel>
 void for_pixels_of(const Fragment<3>& fragment, const BspTree<3>& tree, const FragmentRays& covers,
-                   const Camera& camera, int width, int height, const Pixel& pixel) {
+                   const PixelGrid& grid, const Pixel& pixel) {
     std::vector<Double3> corners;
     for (const auto& corner : fragment.corners) corners.push_back(corner.at);
-    for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
+    for_pixels_around(corners, grid, [&](int x, int y, const Ray& ray) {
         auto hit = FilteredExact::intersect(ray, tree.polygons[fragment.polygon]);
         if (!hit || !covers.meets(ray, fragment)) return;
         hit->triangle = fragment.polygon;
@@ -50,28 +49,25 @@ void for_pixels_of(const Fragment<3>& fragment, const BspTree<3>& tree, const Fr
 
 // [painter]
 /// What each pixel shows when the fragments are laid one over the other, back to front.
-inline DepthBuffer paint(const BspTree<3>& tree, Grade grade, const Camera& camera, int width,
-                         int height) {
+inline DepthBuffer paint(const BspTree<3>& tree, Grade grade, const PixelGrid& grid) {
     const FragmentRays covers(tree, grade);
-    DepthBuffer picture(width, height);
-    tree.back_to_front(camera.eye, [&](const Fragment<3>& fragment) {
-        for_pixels_of(fragment, tree, covers, camera, width, height,
-                      [&](int x, int y, const Ray&, const Hit& hit) {
-                          picture.at(x, y) = hit;  // over whatever was there
-                      });
+    DepthBuffer picture(grid.width, grid.height);
+    tree.back_to_front(grid.camera.eye, [&](const Fragment<3>& fragment) {
+        for_pixels_of(fragment, tree, covers, grid, [&](int x, int y, const Ray&, const Hit& hit) {
+            picture.at(x, y) = hit;  // over whatever was there
+        });
     });
     return picture;
 }
 // [painter]
 
 /// The nearest triangle of each pixel.
-inline DepthBuffer z_buffer(std::span<const Triangle> triangles, const Camera& camera, int width,
-                            int height) {
-    DepthBuffer picture(width, height);
+inline DepthBuffer z_buffer(std::span<const Triangle> triangles, const PixelGrid& grid) {
+    DepthBuffer picture(grid.width, grid.height);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const auto& [a, b, c] = triangles[i];
         const std::array<Double3, 3> corners{a, b, c};
-        for_pixels_around(corners, camera, width, height, [&](int x, int y, const Ray& ray) {
+        for_pixels_around(corners, grid, [&](int x, int y, const Ray& ray) {
             auto hit = FilteredExact::intersect(ray, triangles[i]);
             if (!hit) return;
             hit->triangle = i;
@@ -83,17 +79,14 @@ inline DepthBuffer z_buffer(std::span<const Triangle> triangles, const Camera& c
 
 /// A picture of what each pixel shows, lit without shadows.
 inline Image picture_of(const Scene& scene, const DepthBuffer& shown) {
-    const CameraFrame frame(scene.camera);
+    const PixelGrid grid(scene.camera, shown.width, shown.height);
     Image image(shown.width, shown.height);
-    for (int y = 0; y < shown.height; ++y)
-        for (int x = 0; x < shown.width; ++x) {
-            const Hit& hit = shown.at(x, y);
-            const Ray ray =
-                camera_ray(scene.camera, frame, x + 0.5, y + 0.5, shown.width, shown.height);
-            image.at(x, y) = hit.t < infinity
-                                 ? shade(scene, ray, hit, [](const Ray&) { return true; })
-                                 : scene.background;
-        }
+    grid.for_each([&](int x, int y) {
+        const Hit& hit = shown.at(x, y);
+        image.at(x, y) = hit.t < infinity
+                             ? shade(scene, grid.ray(x, y), hit, [](const Ray&) { return true; })
+                             : scene.background;
+    });
     return image;
 }
 

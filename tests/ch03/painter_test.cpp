@@ -44,7 +44,7 @@ DepthBuffer traced(const std::vector<Triangle>& triangles, const Camera& camera)
 TEST_CASE("the z-buffer shows in every pixel the hit that the naive loop finds") {
     const std::vector<Triangle> triangles = scenes::soup(60, 0.6f, 1);
     for (const Camera& camera : cameras()) {
-        const DepthBuffer shown = z_buffer(triangles, camera, width, height),
+        const DepthBuffer shown = z_buffer(triangles, {camera, width, height}),
                           truth = traced(triangles, camera);
         int covered = 0, other = 0;
         for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
@@ -62,8 +62,9 @@ TEST_CASE("the painter shows in every pixel what the z-buffer shows, from any ey
         const BspTree<3> tree = BspBuilder<3>::build(soup, {.grade = grade});
         CHECK(tree.fragments.size() > 2 * soup.size());
         for (const Camera& camera : cameras()) {
-            const PixelDifferences d = pixel_differences(paint(tree, grade, camera, width, height),
-                                                         z_buffer(soup, camera, width, height));
+            const PixelDifferences d =
+                pixel_differences(paint(tree, grade, {camera, width, height}),
+                                  z_buffer(soup, {camera, width, height}));
             CHECK(d.pixels == width * height);
             CHECK(d.covered > width * height / 10);
             CHECK(d.wrong == 0);
@@ -72,10 +73,10 @@ TEST_CASE("the painter shows in every pixel what the z-buffer shows, from any ey
 }
 
 TEST_CASE("a ring of triangles is painted right in pieces, and wrong in whole triangles") {
-    const DepthBuffer truth = z_buffer(ring(), above_ring, width, height);
+    const DepthBuffer truth = z_buffer(ring(), {above_ring, width, height});
     const auto painted = [&](BspConfig::Straddlers straddlers) {
         const BspTree<3> tree = BspBuilder<3>::build(ring(), {.straddlers = straddlers});
-        return pixel_differences(paint(tree, Grade::exact, above_ring, width, height), truth);
+        return pixel_differences(paint(tree, Grade::exact, {above_ring, width, height}), truth);
     };
     CHECK(painted(BspConfig::Straddlers::split).wrong == 0);
     CHECK(painted(BspConfig::Straddlers::share).wrong > 0);
@@ -93,7 +94,7 @@ TEST_CASE("a fragment is painted in its own pixels only, by its triangle's hit")
         if (fragment.polygon != 0) continue;
         ++halves;
         int here = 0, beyond = 0;
-        for_pixels_of(fragment, tree, covers, camera, width, height,
+        for_pixels_of(fragment, tree, covers, {camera, width, height},
                       [&](int x, int, const Ray& ray, const Hit& hit) {
                           ++(x < width / 2 ? left : right);
                           ++here;
@@ -135,7 +136,7 @@ TEST_CASE("a picture shows the background where nothing is, and light where some
     scene.camera = {.eye = {0, 0, 3}, .target = {0, 0, 0}};
     scene.background = Color(0.25f, 0.5f, 0.75f);
     scene.lights = {{{0, 0, 3}, Color(9.0f)}};
-    const DepthBuffer shown = z_buffer(scene.mesh.triangles(), scene.camera, width, height);
+    const DepthBuffer shown = z_buffer(scene.mesh.triangles(), {scene.camera, width, height});
     const Image image = picture_of(scene, shown);
     CHECK(image.at(0, 0) == scene.background);
     CHECK(image.at(width / 2, height / 2) != scene.background);

@@ -27,15 +27,16 @@ Image fig_03_09(const Options& options) {
 
     Image fine(samples * width, samples * height);
     std::fill_n(&fine.at(0, 0), fine.width() * fine.height(), scene.background);
+    const PixelGrid grid(scene.camera, fine.width(), fine.height());
     std::vector<Image> stages;
     std::size_t painted = 0;
     tree.back_to_front(scene.camera.eye, [&](const Fragment<3>& fragment) {
         const auto number = static_cast<std::size_t>(&fragment - tree.fragments.data());
-        for_pixels_of(fragment, tree, covers, scene.camera, fine.width(), fine.height(),
-                      [&](int x, int y, const Ray& ray, const Hit& hit) {
-                          fine.at(x, y) = tint(number) *
-                                          shade(scene, ray, hit, [](const Ray&) { return true; });
-                      });
+        for_pixels_of(
+            fragment, tree, covers, grid, [&](int x, int y, const Ray& ray, const Hit& hit) {
+                fine.at(x, y) =
+                    tint(number) * shade(scene, ray, hit, [](const Ray&) { return true; });
+            });
         ++painted;
         if (painted * 3 / tree.fragments.size() == stages.size()) return;
         Image& stage = stages.emplace_back(width, height);
