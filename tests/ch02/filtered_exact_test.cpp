@@ -358,11 +358,11 @@ TEST_CASE("integers decide up to the last of their 127 bits, and no ray that nee
         }
         if (i % 2) {  // two large components, and one whose last bit lies far below theirs
             const int low = static_cast<int>(random.below(3));
-            for (int axis = 0; axis < 3; ++axis)
-                pair.ray.direction[axis] =
-                    (random.below(2) ? 1.0f : -1.0f) * (1.0f - 0x1p-24f) *
-                    (axis == low ? std::ldexp(1.0f, -12 - static_cast<int>(random.below(12)))
-                                 : 1.0f);
+            for (int axis = 0; axis < 3; ++axis) {
+                float& d = pair.ray.direction[axis];
+                d = random.below(2) ? 1.0f - 0x1p-24f : -(1.0f - 0x1p-24f);
+                if (axis == low) d = std::ldexp(d, -12 - static_cast<int>(random.below(12)));
+            }
         }
         // One last bit somewhere.
         (random.below(2) ? pair.ray.origin : pair.triangle.b)[static_cast<int>(random.below(3))] =

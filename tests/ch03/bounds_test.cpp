@@ -108,7 +108,8 @@ void change(Floats<N>& numbers, Pcg32& random) {
             x = numbers[random.below(N)];
             break;
         case 4:
-            x = std::nextafter(numbers[random.below(N)], random.below(2) ? infinity : -infinity);
+            x = numbers[random.below(N)];
+            x = std::nextafter(x, random.below(2) ? infinity : -infinity);
             break;
         default:
             x = std::ldexp(x, static_cast<int>(random.below(5)) - 2);

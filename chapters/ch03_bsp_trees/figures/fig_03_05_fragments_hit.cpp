@@ -48,8 +48,7 @@ struct View {
 
 class Microscope {
   public:
-    Microscope(const std::vector<Triangle>& triangles, const Spot& spot)
-        : triangles_(triangles), spot_(spot) {
+    Microscope(const std::vector<Triangle>& triangles, const Spot& spot) : spot_(spot) {
         const auto normal = [&](std::uint32_t i) {
             return glm::normalize(SplitPlane<3>(triangles[i]).normal);
         };
@@ -86,7 +85,6 @@ class Microscope {
     }
 
   private:
-    const std::vector<Triangle>& triangles_;
     Spot spot_;
     Camera camera_;
 };

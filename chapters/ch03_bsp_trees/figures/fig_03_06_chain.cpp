@@ -29,10 +29,8 @@ Svg fig_03_06(const Options&) {
         const PlaneView view{.corner = {left, 34}, .scale = 304 / size, .size = size};
         svg.text(at(left + 152, 22), name, {.bold = true});
         svg.begin_group(id);
-        std::size_t free = 0;
         for (std::size_t i = 0; i < story.turns.size(); ++i) {
             const bool is_free = !story.turns[i].splitter;
-            free += is_free;
             const auto [from, to] = line_in_cell(story, i);
             svg.line(view(from), view(to), {.stroke = is_free ? Ink::vermillion : Ink::blue});
         }
