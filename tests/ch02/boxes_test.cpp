@@ -302,9 +302,9 @@ TEST_CASE(
             for (int step = 0; step < pairs_each / 8; ++step) {
                 float next[3] = {best[0], best[1], best[2]};
                 float& x = next[random.below(3)];
-                const float step = random.uniform(-1.0f, 1.0f);
+                const float size = random.uniform(-1.0f, 1.0f);
                 const int finer = static_cast<int>(random.below(24));
-                const float nudged = x * (1.0f + std::ldexp(step, -finer));
+                const float nudged = x * (1.0f + std::ldexp(size, -finer));
                 x = random.below(8) ? nudged : x < 0.0f ? -number() : number();
                 const Interval ends = at_near ? slab_ends(next[0], next[1], next[2], infinity)
                                               : slab_ends(next[0], next[1], -infinity, next[2]);
