@@ -390,15 +390,20 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
 
 }  // namespace
 
-/// The texts that people write, docs/*.dox and the chapters', with their measured numbers.
+/// The texts that people write, docs/*.dox and the chapters', with their measured numbers, and with
+/// the table of files that the chapter's README.md holds for \\files.
 void write_texts(const Places& places) {
     Measured measured(places.root, places.runs);
+    static const std::regex files(R"([\\@]files\b)");
     const auto write_all = [&](const fs::path& folder) {
         for (const auto& entry : fs::directory_iterator(places.root / folder)) {
             if (entry.path().extension() != ".dox") continue;
             const fs::path name = folder / entry.path().filename();
-            write_file(places.pages / "texts" / name,
-                       measured.resolved(read_file(entry.path()), name.string()));
+            std::string text = measured.resolved(read_file(entry.path()), name.string());
+            if (std::regex_search(text, files))
+                text = std::regex_replace(text, files,
+                                          files_table(places.root / folder / "README.md"));
+            write_file(places.pages / "texts" / name, text);
         }
     };
     write_all("docs");
@@ -417,6 +422,24 @@ std::string figure_aliases(const Places& places) {
                         figure.id, extension_of(figure), chapter, number, caption);
     }
     return lines;
+}
+
+std::string files_table(const fs::path& readme) {
+    static const std::regex link(R"(\[([^\]]*)\]\(([^)]*)\))");
+    std::string table;
+    for (const std::string& line : lines_of(read_file(readme))) {
+        if (table.empty() && line != "| Read | for |") continue;
+        if (!line.starts_with('|')) break;
+        for (std::sregex_iterator at(line.begin(), line.end(), link), end; at != end; ++at)
+            if (!exists(readme.parent_path() / at->str(2)))
+                throw input_error(
+                    fmt::format("{}: there is no file {}", readme.string(), at->str(2)));
+        if (!line.starts_with("| [chapter.dox]"))
+            table += std::regex_replace(line, link, "`$1`") + "\n";
+    }
+    if (table.empty())
+        throw input_error(fmt::format("{}: no table \"| Read | for |\"", readme.string()));
+    return table;
 }
 
 void write_pages(const Places& places) {

@@ -23,4 +23,9 @@ void write_pages(const Places& places);
 /// caption, both from the register of figures.
 std::string figure_aliases(const Places& places);
 
+/// The table "| Read | for |" of a chapter's README.md for the chapter's page: names in place of
+/// links, and without the row of the page itself. @throws Error (bad_input) where there is none, or
+/// no file that it links to
+std::string files_table(const std::filesystem::path& readme);
+
 }  // namespace space::docs

@@ -2,7 +2,7 @@
 ///     ch02_intersection_tests --out pictures
 ///     ch02_intersection_tests --figure fig_02_11 --out figures
 #include "chapters/ch02_intersection_tests/measured/measurements.hpp"
-#include "chapters/ch02_intersection_tests/measured/tables.hpp"
+#include "chapters/ch02_intersection_tests/measured/outcome.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 #include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
@@ -54,6 +54,8 @@ int run(int argc, char** argv) {
     print_roots(measured);
     print_boxes_and_spheres(measured);
     print_bounces(measured);
+    quoted(measured).write(options.out, provenance(std::string(this_chapter.name), options));
+    if (options.counts) return exit_code(wrong_answers(measured));
     if (!options.small) print_times(measured);  // no test's business
     return finish(options, answer_claims(measured), wrong_answers(measured));
 }

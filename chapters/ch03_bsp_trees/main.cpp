@@ -5,6 +5,7 @@
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
+#include "chapters/ch03_bsp_trees/measured/outcome.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
 #include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
@@ -55,12 +56,12 @@ ChapterOptions read_options(int argc, char** argv) {
     options.tree.splitter = splitters.at(splitter);
     if (options.small && options.scene == default_scene) options.scene = "lattice";
     if (options.small) options.width = 32, options.height = 24;
-    if (options.quick) options.width /= 2, options.height /= 2;
+    if (options.quick && !options.counts) options.width /= 2, options.height /= 2;
     return options;
 }
 
-/// The scene by rays through its tree and by the painter; how many pixels are wrong.
-std::uint64_t draw_pictures(const ChapterOptions& options) {
+/// The scene by rays through its tree and by the painter.
+Pictures draw_pictures(const ChapterOptions& options) {
     const Scene scene = make_scene(options.scene, options.seed, options.small);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const RenderSettings settings{
@@ -104,23 +105,34 @@ std::uint64_t draw_pictures(const ChapterOptions& options) {
 
     write_png(options.out / "ch03_tree.png", by_tree.image);
     write_png(options.out / "ch03_painter.png", picture_of(scene, painted));
-    return other_pixels + painter.wrong;
+    return {.pixels = painter.pixels,
+            .rays = rays,
+            .nodes = of_tree.nodes_visited,
+            .tests = of_tree.triangles_tested,
+            .naive_tests = of_all.triangles_tested,
+            .other_pixels = other_pixels,
+            .painter_wrong = painter.wrong,
+            .same_depth = painter.same_depth};
 }
 
 int run(int argc, char** argv) {
     const ChapterOptions options = read_options(argc, argv);
     if (options.figure) return write_figures(this_chapter.figures, options);
     check_results_writable(options);
-    const bool times = !options.small;  // they are no test's business
+    const bool times = !options.small && !options.counts;
 
-    std::uint64_t wrong = draw_pictures(options);
     Measurements measured;
+    measured.pictures = draw_pictures(options);
     print_methods(measured.methods = measure_methods(options.scene, options), times);
-    print_scenes(measured.scenes = measure_scenes(options), times);
+    const bool all = !options.counts || !options.quick;
+    if (all) print_scenes(measured.scenes = measure_scenes(options), times);
     print_crossings(measured.crossings = measure_crossings(options));
-    print_grades(measured.grades = measured_once<measure_grades>(options), times);
+    if (all) print_grades(measured.grades = measured_once<measure_grades>(options), times);
     print_growth(measured.growth = measured_once<measure_growth>(options), times);
-    wrong += wrong_answers(measured);
+    const std::uint64_t wrong =
+        wrong_answers(measured) + measured.pictures.other_pixels + measured.pictures.painter_wrong;
+    quoted(measured, times).write(options.out, provenance(std::string(this_chapter.name), options));
+    if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);
     return finish(options, answer_claims(measured), wrong);
 }

@@ -1,8 +1,10 @@
 /// Chapter 12: which structure does a scene need? The comparison comes when the structures stand;
 /// the lab is here. Run   ch12_comparison lab --scene sphereflake --structure all --check
 #include "chapters/ch12_comparison/lab.hpp"
+#include "chapters/ch12_comparison/measured/lab_counts.hpp"
 #include "common/program/error.hpp"
 #include "common/program/figure.hpp"
+#include "common/program/file.hpp"
 #include "common/program/options.hpp"
 #include "common/program/report.hpp"
 
@@ -23,6 +25,7 @@ int comparison(int argc, char** argv) {
                               .about = "Chapter 12: the lab (ch12_comparison lab --help)",
                               .defaults = {}});
     if (options.figure) return space::write_figures({}, options);
+    space::check_writable(options.out / "numbers.json");
     space::print_heading("Chapter 12: comparison");
     fmt::print(
         "The comparison of all structures on all scenes is not written yet. The lab runs those "
@@ -32,6 +35,8 @@ int comparison(int argc, char** argv) {
     for (const space::Structure& structure : space::structures())
         table.row({std::string(structure.name), std::string(structure.about)});
     table.print();
+    if (!options.small)
+        space::ch12::count_lab().write(options.out, space::provenance("ch12_comparison", options));
     return 0;
 }
 

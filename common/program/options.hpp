@@ -25,7 +25,7 @@ struct Options {
     std::string scene = {};  ///< --scene NAME, NAME:SIZE or FILE
     bool small = false;      ///< --small: counts only, in a second or two; what the tests run
     bool quick = false;      ///< --quick: fewer sizes and rounds
-    bool counts = false;     ///< --counts: the book's counts in full, and no times
+    bool counts = false;     ///< --counts: the full run's counts alone; with --quick, most of them
     std::filesystem::path out = ".";  ///< --out DIR: pictures, figures, results
     unsigned threads = 0;           ///< --threads N; parse_options turns 0 into the machine's count
     std::uint64_t seed = 1;         ///< --seed S
@@ -33,7 +33,9 @@ struct Options {
     std::optional<std::string> figure =
         {};  ///< --figure ID (or "all"): draw into --out and do nothing else
 
-    Amount amount() const { return small ? Amount::small : quick ? Amount::quick : Amount::full; }
+    Amount amount() const {
+        return small ? Amount::small : quick && !counts ? Amount::quick : Amount::full;
+    }
 };
 
 /// What a program brings to its command line.

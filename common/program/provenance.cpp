@@ -115,8 +115,8 @@ Fingerprints source_fingerprints(const fs::path& root, const std::string& chapte
 
 Provenance provenance(const std::string& chapter, const Options& options) {
     const char* mode = options.small    ? "small"
-                       : options.quick  ? "quick"
                        : options.counts ? "counts"
+                       : options.quick  ? "quick"
                                         : "full";
     return {.chapter = chapter,
             .mode = mode,

@@ -93,3 +93,18 @@ TEST_CASE("a page is found by its sections, with the text that a reader sees") {
     CHECK(entries[2].url == "p.html#a1");
     CHECK(entries[2].text.find("x < y") != std::string::npos);
 }
+
+TEST_CASE("a page's table of files is its README's, with names in place of links") {
+    const Folder folder;
+    const auto readme = folder.path / "README.md";
+    for (const char* file : {"a.hpp", "b.hpp", "chapter.dox"}) write_file(folder.path / file, "");
+    const std::string table =
+        "| Read | for |\n|---|---|\n| [a.hpp](a.hpp), [b](b.hpp) | all |\n"
+        "| [chapter.dox](chapter.dox) | the text |\n";
+    write_file(readme, "# C\n\n" + table + "\n| x | y |\n");
+    CHECK(files_table(readme) == "| Read | for |\n|---|---|\n| `a.hpp`, `b` | all |\n");
+    write_file(readme, table + "| [c.hpp](c.hpp) | gone |\n");
+    CHECK_THROWS_AS(files_table(readme), Error);
+    write_file(readme, "# C\n| file | holds |\n");
+    CHECK_THROWS_AS(files_table(readme), Error);
+}

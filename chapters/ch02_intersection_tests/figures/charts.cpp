@@ -2,6 +2,7 @@
 
 #include "chapters/ch02_intersection_tests/figures.hpp"
 #include "chapters/ch02_intersection_tests/measured/measurements.hpp"
+#include "chapters/ch02_intersection_tests/measured/outcome.hpp"
 
 namespace space::ch02 {
 

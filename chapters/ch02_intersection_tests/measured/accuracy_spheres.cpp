@@ -17,9 +17,12 @@ Ray ray_at(const Sphere& sphere, double distance, Pcg32& random) {
 
 SphereAccuracy sphere_accuracy(double distance, std::uint64_t pairs, std::uint64_t seed,
                                unsigned threads) {
-    const auto parts = count_by_chunks<SphereAccuracy>(
-        pairs, seed, threads, [&](Pcg32& random, std::uint64_t size) {
-            SphereAccuracy part;
+    struct Part : SphereAccuracy {
+        std::array<std::vector<double>, sphere_test_count> ulps;
+    };
+    const auto parts =
+        count_by_chunks<Part>(pairs, seed, threads, [&](Pcg32& random, std::uint64_t size) {
+            Part part;
             for (std::uint64_t i = 0; i < size; ++i) {
                 const Sphere sphere{random_vector(random), 1.0f};
                 const Ray ray = ray_at(sphere, distance, random);
@@ -34,7 +37,7 @@ SphereAccuracy sphere_accuracy(double distance, std::uint64_t pairs, std::uint64
                         hit = Test::hits(ray, sphere);
                     } else if (const auto found = Test::intersect(ray, sphere)) {
                         hit = true;
-                        if (hits) part.t[test].add(ulps(*found, t));
+                        if (hits) part.ulps[test].push_back(ulps(*found, t));
                     }
                     part.wrong[test].test = named.name;
                     ++part.wrong[test].decisions;
@@ -47,12 +50,16 @@ SphereAccuracy sphere_accuracy(double distance, std::uint64_t pairs, std::uint64
     SphereAccuracy sum;
     sum.distance = distance;
     sum.pairs = pairs;
-    for (const SphereAccuracy& part : parts) {
+    for (const Part& part : parts) {
         sum.exact_hits += part.exact_hits;
-        for (std::size_t test = 0; test < sphere_test_count; ++test) {
+        for (std::size_t test = 0; test < sphere_test_count; ++test)
             sum.wrong[test].add(part.wrong[test]);
-            sum.t[test].add(part.t[test]);
-        }
+    }
+    for (std::size_t test = 0; test < sphere_test_count; ++test) {
+        std::vector<double> ulps;
+        for (const Part& part : parts)
+            ulps.insert(ulps.end(), part.ulps[test].begin(), part.ulps[test].end());
+        sum.t[test] = summary(std::move(ulps));
     }
     return sum;
 }

@@ -1,6 +1,8 @@
 #include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
 #include "chapters/ch02_intersection_tests/measured/chunks.hpp"
+#include "common/measure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace space::ch02 {
@@ -20,11 +22,20 @@ double ulps(float value, double exact) {
     return std::abs(value - exact) / ulp;
 }
 
+UlpError summary(std::vector<double> ulps) {
+    if (ulps.empty()) return {};
+    const double worst = *std::max_element(ulps.begin(), ulps.end());
+    return {.values = ulps.size(), .median = median(std::move(ulps)), .worst = worst};
+}
+
 TriangleAccuracy triangle_accuracy(const TriangleInput& input, std::uint64_t pairs,
                                    std::uint64_t seed, unsigned threads) {
-    const auto parts = count_by_chunks<TriangleAccuracy>(
-        pairs, seed, threads, [&](Pcg32& random, std::uint64_t count) {
-            TriangleAccuracy part;
+    struct Part : TriangleAccuracy {
+        std::array<std::vector<double>, triangle_test_count> ulps;
+    };
+    const auto parts =
+        count_by_chunks<Part>(pairs, seed, threads, [&](Pcg32& random, std::uint64_t count) {
+            Part part;
             for (std::uint64_t i = 0; i < count; ++i) {
                 const RayAndTriangle pair = make_pair(input, random);
                 const Ray& ray = pair.ray;
@@ -38,7 +49,7 @@ TriangleAccuracy triangle_accuracy(const TriangleInput& input, std::uint64_t pai
                     ++part.wrong[test].decisions;
                     part.wrong[test].hits += hit && !hits;
                     part.wrong[test].misses += !hit && hits;
-                    if (hit && hits) part.t[test].add(ulps(hit->t, t));
+                    if (hit && hits) part.ulps[test].push_back(ulps(hit->t, t));
                 });
             }
             return part;
@@ -46,13 +57,17 @@ TriangleAccuracy triangle_accuracy(const TriangleInput& input, std::uint64_t pai
     TriangleAccuracy sum;
     sum.input = input.name;
     sum.pairs = pairs;
-    for (const TriangleAccuracy& part : parts) {
+    for (const Part& part : parts) {
         sum.exact_hits += part.exact_hits;
         for (std::size_t i = 0; i < 3; ++i) sum.stages.count[i] += part.stages.count[i];
-        for (std::size_t test = 0; test < triangle_test_count; ++test) {
+        for (std::size_t test = 0; test < triangle_test_count; ++test)
             sum.wrong[test].add(part.wrong[test]);
-            sum.t[test].add(part.t[test]);
-        }
+    }
+    for (std::size_t test = 0; test < triangle_test_count; ++test) {
+        std::vector<double> ulps;
+        for (const Part& part : parts)
+            ulps.insert(ulps.end(), part.ulps[test].begin(), part.ulps[test].end());
+        sum.t[test] = summary(std::move(ulps));
     }
     return sum;
 }

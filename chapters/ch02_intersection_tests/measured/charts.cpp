@@ -1,4 +1,4 @@
-#include "chapters/ch02_intersection_tests/measured/measurements.hpp"
+#include "chapters/ch02_intersection_tests/measured/outcome.hpp"
 #include "common/measure.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,9 @@ Chart triangle_chart(const Measurements& measured) {
     Series leaks{.name = "leaks", .x = {}, .y = {}};
     const Leaks& mesh = measured.leaks.front();
     int without_leaks = 0;
-    for_each_named(triangle_tests, [&](std::size_t test, const auto& named) {
+    const std::vector<Timed>& tests = measured.triangle_times.front().tests;
+    for (std::size_t test = 0; test < tests.size(); ++test) {
+        const std::string& name = tests[test].test;
         leaks.x.push_back(over_scenes(measured.triangle_times, test));
         // Two tests without leaks stand one above the other, so that their names do not meet.
         leaks.y.push_back(mesh.leaks[test] > 0 ? 1e6 * static_cast<double>(mesh.leaks[test]) /
@@ -36,10 +38,10 @@ Chart triangle_chart(const Measurements& measured) {
                           : without_leaks++ % 2 == 0 ? none
                                                      : 3.0 * none);
         // Lichter's two tests leak alike; only the improved one carries the name.
-        leaks.labels.emplace_back(named.name == "lichter-first"      ? "first"
-                                  : named.name == "lichter-improved" ? "lichter"
-                                                                     : named.name);
-    });
+        leaks.labels.push_back(name == "lichter-first"      ? "first"
+                               : name == "lichter-improved" ? "lichter"
+                                                            : name);
+    }
     return {.title =
                 "Nanoseconds per ray-triangle test against leaks through the edges and vertices of "
                 "a closed mesh",
@@ -119,7 +121,7 @@ Chart sphere_chart(const Measurements& measured) {
         .log_x = true,
         .log_y = true,
         .series = {}};
-    for (std::size_t test = 0; test < sphere_test_count; ++test) {
+    for (std::size_t test = 0; test < sphere_tests_measured; ++test) {
         const Timed& timed = measured.sphere_times[test];
         Series series{
             .name = timed.test, .x = {}, .y = {}, .note = fmt::format("{:.1f} ns", timed.ns)};

@@ -1,6 +1,5 @@
-#include "chapters/ch02_intersection_tests/measured/measurements.hpp"
+#include "chapters/ch02_intersection_tests/measured/outcome.hpp"
 #include "common/measure.hpp"
-#include "common/program/report.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +40,8 @@ Gains lichter_gains(const Measurements& measured, std::string_view variant) {
     for (const SceneTimes& scene : measured.triangle_times) {
         gains.percent.push_back(
             100.0 * (1.0 - ns_of(scene.lichter, variant) / ns_of(scene.lichter, "first")));
-        gains.text.push_back(fmt::format("{} {:.0f} %", scene.scene, gains.percent.back()));
+        gains.text.push_back(
+            fmt::format("{} {}", scene.scene, percent(0.01 * gains.percent.back())));
     }
     return gains;
 }
@@ -59,20 +59,21 @@ void answer_triangles(const Measurements& measured, std::vector<ClaimAnswer>& an
          gain >= 5.0 && gain <= 20.0 ? Verdict::confirmed
          : gain > 20.0               ? Verdict::depends
                                      : Verdict::refuted,
-         fmt::format("the improved test takes less time by {}; median {:.0f} %", joined(all.text),
-                     gain),
+         fmt::format("the improved test takes less time by {}; median {}", joined(all.text),
+                     percent(0.01 * gain)),
          scene, "confirmed if the median gain is within 5 .. 20 %, refuted if it is smaller"});
     std::size_t roots_win = 0;
     for (std::size_t i = 0; i < roots.percent.size(); ++i)
         roots_win += roots.percent[i] > exit.percent[i];
-    answers.push_back({"L2", verdict_of(roots_win, roots.percent.size()),
-                       fmt::format("two roots for three, and nothing else, gain {:.0f} % (median), "
-                                   "early exit with three roots "
-                                   "{:.0f} %, both together {:.0f} %",
-                                   median(roots.percent), median(exit.percent), gain),
-                       scene,
-                       "confirmed if fewer roots alone gain more than the early exit alone on "
-                       "every scene, refuted if on none"});
+    answers.push_back(
+        {"L2", verdict_of(roots_win, roots.percent.size()),
+         fmt::format("two roots for three, and nothing else, gain {} (median), early exit "
+                     "with three roots {}, both together {}",
+                     percent(0.01 * median(roots.percent)), percent(0.01 * median(exit.percent)),
+                     percent(0.01 * gain)),
+         scene,
+         "confirmed if fewer roots alone gain more than the early exit alone on "
+         "every scene, refuted if on none"});
 }
 
 void answer_roots(const Measurements& measured, std::vector<ClaimAnswer>& answers) {
@@ -212,10 +213,11 @@ void answer_branches(const Measurements& measured, std::vector<ClaimAnswer>& ans
 void answer_counts(const Measurements& measured, std::vector<ClaimAnswer>& answers) {
     const RaysFromInside& inside = measured.from_inside;
     std::uint64_t safe = 0, printed = 0;
-    for_each_named(box_tests, [&](std::size_t i, const auto& named) {
-        if (named.name == "safe") safe = inside.rejected[i];
-        if (named.name == "as printed") printed = inside.rejected[i];
-    });
+    for (std::size_t i = 0; i < box_tests_measured; ++i) {
+        const std::string_view test = measured.boxes.wrong[i].test;
+        if (test == "safe") safe = inside.rejected[i];
+        if (test == "as printed") printed = inside.rejected[i];
+    }
     answers.push_back(
         {"O13", printed > 0 && safe == 0 ? Verdict::confirmed : Verdict::refuted,
          fmt::format("of {} rays that start inside a box {} are rejected as printed, {} without "

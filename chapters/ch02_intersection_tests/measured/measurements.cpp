@@ -143,8 +143,10 @@ const Measurements& measure(const Options& options, std::initializer_list<Part> 
 }
 
 const Measurements& measure_all(const Options& options) {
-    return measure(options, {count_triangles, count_leaks, count_roots, count_boxes, count_spheres,
-                             count_bounces, time_triangles, time_patterns, time_others});
+    const Measurements& measured = measure(options, {count_triangles, count_leaks, count_roots,
+                                                     count_boxes, count_spheres, count_bounces});
+    if (options.counts) return measured;
+    return measure(options, {time_triangles, time_patterns, time_others});
 }
 
 std::uint64_t wrong_answers(const Measurements& measured) {
@@ -155,10 +157,6 @@ std::uint64_t wrong_answers(const Measurements& measured) {
                       measured.from_inside.rejected[i];
     });
     return missed;
-}
-
-double relative_time(const SceneTimes& scene, std::string_view test) {
-    return ns_of(scene.tests, test) / ns_of(scene.tests, "moller-trumbore-float");
 }
 
 }  // namespace space::ch02

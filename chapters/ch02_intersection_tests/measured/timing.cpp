@@ -82,12 +82,6 @@ auto prepared_triangles(const std::vector<Triangle>& triangles) {
 
 }  // namespace
 
-double ns_of(const std::vector<Timed>& times, std::string_view test) {
-    for (const Timed& timed : times)
-        if (timed.test == test) return timed.ns;
-    throw std::out_of_range("no time of " + std::string(test));
-}
-
 // --- triangles ---
 
 Leaves make_leaves(const std::string& scene, std::span<const Triangle> triangles,
@@ -167,18 +161,6 @@ std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds) {
     race.add("early exit", [&] { do_not_optimize(nearest_in_leaves<LichterEarlyExit>(leaves)); });
     race.add("improved", [&] { do_not_optimize(nearest_in_leaves<LichterImproved>(leaves)); });
     return race.times(static_cast<double>(leaves.tests()), rounds);
-}
-
-std::string_view name(Pattern pattern) {
-    switch (pattern) {
-        case Pattern::all_hit:
-            return "all hit";
-        case Pattern::all_miss:
-            return "all miss";
-        case Pattern::unpredictable:
-            return "unpredictable";
-    }
-    return "";
 }
 
 namespace {

@@ -3,6 +3,7 @@
 /// thread. To be read as ratios.
 #pragma once
 
+#include "chapters/ch02_intersection_tests/measured/data.hpp"
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 
 #include <span>
@@ -10,14 +11,6 @@
 #include <vector>
 
 namespace space::ch02 {
-
-/// A median time and what took it.
-struct Timed {
-    std::string test;
-    double ns;  ///< per test
-};
-/// The time of one of them. @throws std::out_of_range
-double ns_of(const std::vector<Timed>& times, std::string_view test);
 
 // --- triangles ---
 
@@ -49,27 +42,11 @@ std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds);
 /// the nearest hit's t as tmax, as its naive ray tracer does.
 std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds);
 
-/// How well a processor can guess what a test's branches do.
-enum class Pattern {
-    all_hit,       ///< every test takes the same way, to its end
-    all_miss,      ///< every test takes the same way, out at the first exit
-    unpredictable  ///< about half of the tests hit, and those that miss leave anywhere, in random
-                   ///< order
-};
-inline constexpr Pattern patterns[] = {Pattern::all_hit, Pattern::all_miss, Pattern::unpredictable};
-std::string_view name(Pattern pattern);
-
 /// The three orders of branches.hpp.
 std::vector<Timed> time_orders(Pattern pattern, int rounds);
 
 // --- square roots ---
 
-/// A median time of one form of the root with so many rounds.
-struct TimedRoot {
-    std::string test;
-    int rounds;
-    double ns;  ///< per root
-};
 /// Every form of root_forms() inlined into a loop, the vector forms four at a time, and the
 /// library's as a call.
 std::vector<TimedRoot> time_roots(int rounds);

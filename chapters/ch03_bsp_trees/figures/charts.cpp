@@ -1,5 +1,6 @@
 #include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
+#include "chapters/ch03_bsp_trees/measured/outcome.hpp"
 #include "common/measure.hpp"
 
 namespace space::ch03 {

@@ -49,7 +49,7 @@ void classify(benchmark::State& state) {
         benchmark::DoNotOptimize(Cutter<3>::classify(sides));
         ++i;
     }
-    state.SetLabel(grade_names[std::size_t(state.range(0))].first);
+    state.SetLabel(std::string(grade_names[std::size_t(state.range(0))]));
 }
 BENCHMARK(classify)->DenseRange(0, 3);
 
@@ -72,7 +72,7 @@ void split(benchmark::State& state) {
         benchmark::DoNotOptimize(
             cutter.split(soup().fragments[cut.fragment], cut.sides, cut.plane));
     }
-    state.SetLabel(grade_names[std::size_t(state.range(0))].first);
+    state.SetLabel(std::string(grade_names[std::size_t(state.range(0))]));
 }
 BENCHMARK(split)->DenseRange(0, 3);
 

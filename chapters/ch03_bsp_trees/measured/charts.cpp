@@ -1,4 +1,4 @@
-#include "chapters/ch03_bsp_trees/measured/measurements.hpp"
+#include "chapters/ch03_bsp_trees/measured/outcome.hpp"
 #include "common/program/report.hpp"
 
 #include <fmt/format.h>
@@ -73,17 +73,17 @@ Chart grades_chart(const std::vector<GradePoint>& grades) {
                 .kind = ChartKind::points,
                 .series = {}};
     for (std::size_t grade = 0; grade < grade_names.size(); ++grade) {
-        Series series{.name = grade_names[grade].first, .x = {}, .y = {}};
+        Series series{.name = std::string(grade_names[grade]), .x = {}, .y = {}};
         // Two grades without slipped rays stand one above the other, so that labels do not meet.
-        const double nowhere = grade_names[grade].second == Grade::exact ? none : 4.0 * none;
+        const double nowhere = grade_names[grade] == "exact" ? none : 4.0 * none;
         for (std::size_t i = 0; i < grades.size(); i += grade_names.size()) {
             const GradePoint& point = grades[i + grade];
             const double slipped = point.slipped_per_million();
             series.x.push_back(point.build_ms / grades[i].build_ms);
             series.y.push_back(slipped > 0.0 ? slipped : nowhere);
-            std::string label = fmt::format("{:.0e}", point.tiling.area_error);
-            if (point.tiling.area_error == 0.0) label = "0";
-            if (point.tiling.cracks) label += fmt::format(", {}", with_commas(point.tiling.cracks));
+            std::string label = fmt::format("{:.0e}", point.area_error);
+            if (point.area_error == 0.0) label = "0";
+            if (point.cracks) label += fmt::format(", {}", with_commas(point.cracks));
             series.labels.push_back(label);
         }
         chart.series.push_back(series);

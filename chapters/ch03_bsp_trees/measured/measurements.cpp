@@ -1,6 +1,7 @@
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch03_bsp_trees/tiling.hpp"
 #include "common/parallel.hpp"
 #include "common/program/error.hpp"
 #include "common/program/progress.hpp"
@@ -216,42 +217,35 @@ std::vector<GradePoint> measure_grades(const Options& options) {
         const std::vector<Triangle> polygons = scene->mesh.triangles();
 
         std::vector<std::function<void()>> builds;
-        std::vector<BspTree<3>> trees(grade_names.size());
-        for (std::size_t i = 0; i < grade_names.size(); ++i)
-            builds.push_back([&, i] {
-                trees[i] = BspBuilder<3>::build(polygons, {.grade = grade_names[i].second});
-            });
-        const std::vector<double> build_ms = interleaved_medians(builds, limit.rounds);
-        for (std::size_t i = 0; i < grade_names.size(); ++i) {
-            const auto [grade_name, grade] = grade_names[i];
-            const FragmentRays rays(trees[i], grade);
+        std::vector<BspTree<3>> trees(grades.size());
+        for (std::size_t i = 0; i < grades.size(); ++i)
+            builds.push_back(
+                [&, i] { trees[i] = BspBuilder<3>::build(polygons, {.grade = grades[i]}); });
+        const std::vector<double> build_ms =
+            interleaved_medians(builds, options.counts ? 0 : limit.rounds);
+        for (std::size_t i = 0; i < grades.size(); ++i) {
+            const Tiling tiling = measure_tiling(trees[i], grades[i]);
+            const FragmentRays rays(trees[i], grades[i]);
+            const SlippedRays at_edges = rays.at_old_edges(limit.edge_rays, options.seed),
+                              at_cuts = rays.at_cuts(limit.edge_rays, options.seed);
             points.push_back({.scene = name,
-                              .grade = grade_name,
+                              .grade = std::string(grade_names[i]),
+                              .polygons = polygons.size(),
                               .nodes = trees[i].nodes.size(),
                               .fragments = trees[i].fragments.size(),
-                              .tiling = measure_tiling(trees[i], grade),
-                              .old_edges = rays.at_old_edges(limit.edge_rays, options.seed),
-                              .cuts = rays.at_cuts(limit.edge_rays, options.seed),
+                              .area_error = tiling.area_error,
+                              .cuts = tiling.cuts,
+                              .cracks = tiling.cracks,
+                              .edge_rays = at_edges.rays,
+                              .edge_slipped = at_edges.slipped,
+                              .cut_rays = at_cuts.rays,
+                              .cut_slipped = at_cuts.slipped,
                               .build_ms = build_ms[i]});
             trees[i] = {};
             progress.step();
         }
     }
     return points;
-}
-
-std::uint64_t wrong_answers(const Measurements& measured) {
-    std::uint64_t wrong = 0;
-    for (const TreePoint& point : measured.methods.trees) wrong += point.wrong;
-    for (const TreePoint& point : measured.scenes) wrong += point.wrong;
-    for (const Growth& growth : measured.growth)
-        for (const TreePoint& point : growth.points) wrong += point.wrong;
-    for (const Crossings& crossings : measured.crossings) wrong += crossings.contradicted;
-    for (const GradePoint& point : measured.grades)
-        if (point.grade == "exact")
-            wrong += (point.tiling.area_error != 0.0) + point.tiling.cracks +
-                     point.old_edges.slipped + point.cuts.slipped;
-    return wrong;
 }
 
 }  // namespace space::ch03
