@@ -13,7 +13,7 @@ namespace space::ch12 {
 Numbers count_lab() {
     const Scene scene = make_scene("sphereflake");
     const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const std::vector<Ray> rays = camera_rays(scene.camera, 64, 48);
+    const std::vector<Ray> rays = camera_rays({scene.camera, 64, 48});
     std::vector<HitRecord> hits(rays.size());
     const auto count = [](const std::optional<std::size_t>& value) {
         return value ? with_commas(*value) : "-";
