@@ -20,59 +20,103 @@ fingerprint() { cksum <"$1" | tr ' ' -; }
 state_of() {
     local file=$root/build/exercises/$1.state result print
     [[ -f $file ]] || { echo 'not checked yet' && return; }
-    read -r result print <"$file"
+    read -r print result <"$file"
     [[ $print == "$(fingerprint "$2")" ]] && echo "$result" || echo 'changed since its check'
 }
 
 list_exercises() {
-    local stub state
-    printf '%-5s %-44s %-11s %-8s %s\n' '' exercise difficulty minutes state
+    local stub head folder='' state
     for stub in "$root"/chapters/ch*/exercises/ex*.hpp; do
         [[ $stub =~ /(ch([0-9]+))_[^/]*/exercises/(ex([0-9]+)_[^/]*)\.hpp$ ]] || continue
         state=$(state_of "${BASH_REMATCH[1]}.${BASH_REMATCH[3]}" "$stub")
-        printf '%-5s %-44s %-11s %-8s %s\n' "$((10#${BASH_REMATCH[2]})).$((10#${BASH_REMATCH[4]}))" \
-            "$(sed -n 's|^/// Exercise [0-9.]*: ||p' "$stub")" \
-            "$(sed -n 's|^/// Difficulty \(. of 3\), about .*|\1|p' "$stub")" \
-            "$(sed -n 's|^/// Difficulty . of 3, about \([0-9]*\) minutes.*|\1|p' "$stub")" "$state"
+        [[ $folder == "${stub%/*}" ]] || printf '%s\n' "${folder:+$'\n'}${stub#"$root"/}" | sed 's|/[^/]*$|/|'
+        folder=${stub%/*}
+        head=$(sed -n 's|^/// Difficulty \(. of 3\), about \([0-9]*\) minutes.*|\1, \2 min|p' "$stub")
+        printf '%-4s %-33s %-14s  %s\n     %s\n' "$((10#${BASH_REMATCH[2]})).$((10#${BASH_REMATCH[4]}))" \
+            "$(sed -n 's|^/// Exercise [0-9.]*: ||p' "$stub")" "$head" "$state" "${stub##*/}"
     done
-    printf '\nOpen the file that ./book exercise check N.M names, change it, check it again.\n'
+    printf '\n./book exercise check N.M compiles and checks what you made of a file.\n'
+}
+
+# What a reader needs of a long output: paths from the project's root, and no more than 60 lines.
+shorten() { sed "s|$root/||g; s|^\(\.\./\)\+||" | awk 'NR <= 60 {print} END {if (NR > 60) printf "... and %d lines more\n", NR - 60}'; }
+
+# A check's answer may use 60 seconds, 2 GB of memory and 10 MB of output; its report goes into a file of its own.
+run_check() {
+    local program=$1 result=0 slow
+    local -a arguments
+    read -ra arguments <"$root/build/release/catch_arguments.txt"
+    { sleep 10 >&- 2>&- && say "      Still running after 10 seconds; it is stopped after 60."; } &
+    slow=$!
+    # In braces: the shell's own word on a crash is left out.
+    {
+        (
+            ulimit -v 2000000 -f 10000 -c 0
+            exec timeout -s KILL 60 "$program" "${arguments[@]}" -x 3 -o "$log/exercise.txt" >"$log/exercise_own.txt" 2>&1
+        ) || result=$?
+    } 2>/dev/null
+    kill "$slow" 2>/dev/null || true
+    return "$result"
+}
+
+# The failed checks of a report, without Catch2's banner, places of test cases and sums.
+failed_checks() {
+    grep -vE -e '^(~+|\.+|=+)$' -e ' is a Catch2? v.* host application\.$|^Run with -\? for options$' \
+        -e '^Randomness seeded to: |^Filters: |^(test cases|assertions): |^[^ ]*\.cpp:[0-9]+$' "$log/exercise.txt" | cat -s
+}
+
+# The sentence that names the first test case of a report that failed: it stands between two lines of hyphens.
+first_failure() {
+    awk '/^-+$/ {if (inside) exit; inside = 1; next} inside {sub(/^ +/, ""); printf "%s%s", space, $0; space = " "}' \
+        "$log/exercise.txt"
 }
 
 check_exercise() {
-    local program output result=0 state
-    local -a arguments
+    local compiled warnings result=0 state verdict
     find_exercise "$1"
     step_count=3
     set_up build
     configure_once release
-    program=$root/build/release/exercises/$exercise.exercise
     state=$root/build/exercises/$exercise.state
+    warnings=$root/build/exercises/$exercise.warnings
     mkdir -p "$root/build/exercises"
-    rm -f "$state"
+    rm -f "$state" "$log/exercise.txt" "$log/exercise_own.txt"
     step "Compiling ${stub#"$root"/}"
-    if ! output=$(cmake --build "$root/build/release" --target "$exercise.exercise" -- -k 0 2>&1); then
-        grep -vE '^(\[[0-9]|ninja: |FAILED: |/usr/bin/|/usr/lib/ccache)' <<<"$output" || true
+    compiled=$(cmake --build "$root/build/release" --target "$exercise.exercise" -- -k 0 2>&1) || result=$?
+    # What was compiled before is not compiled again: its warnings are shown again.
+    if [[ $compiled != *'no work to do'* ]]; then
+        grep -vE '^(\[[0-9]|ninja: |FAILED: |-- |/usr/bin/|/usr/lib/ccache)' <<<"$compiled" >"$warnings" || true
+    fi
+    [[ ! -f $warnings ]] || shorten <"$warnings"
+    if ((result != 0)); then
+        echo "$(fingerprint "$stub") does not compile" >"$state"
         printf '\nExercise %s does not compile yet: the first error above says where.\n' "$1"
         return 1
     fi
-    read -ra arguments <"$root/build/release/catch_arguments.txt"
-    # In braces: the shell's own word on a crash is left out.
-    { timeout 60 "$program" "${arguments[@]}" >"$log/exercise.txt" 2>&1 || result=$?; } 2>/dev/null
-    cat "$log/exercise.txt"
-    if ((result == 0)); then
-        echo "solved $(fingerprint "$stub")" >"$state"
+    run_check "$root/build/release/exercises/$exercise.exercise" || result=$?
+    touch "$log/exercise.txt" "$log/exercise_own.txt"
+    head -c 2000 "$log/exercise_own.txt" | head -n 20  # what the answer prints
+    if ((result == 0)) && grep -q '^All tests passed (' "$log/exercise.txt"; then
+        echo "$(fingerprint "$stub") solved" >"$state"
         printf 'Exercise %s is solved. ./book exercise solution %s shows ours, to compare.\n' "$1" "$1"
         return 0
     fi
-    echo "unsolved $(fingerprint "$stub")" >"$state"
-    if ((result == 124)); then
-        printf 'Exercise %s does not end within a minute: is there an endless loop?\n' "$1"
+    echo "$(fingerprint "$stub") unsolved" >"$state"
+    failed_checks | shorten
+    if ((result == 137)); then
+        verdict='does not end within a minute: is there an endless loop?'
+    elif ((result == 153)); then
+        verdict='prints more than 10 MB: is there an endless loop?'
+    elif grep -q 'bad_alloc' "$log/exercise.txt" "$log/exercise_own.txt"; then
+        verdict='needs more than 2 GB of memory: does something grow without end?'
     elif grep -q 'fatal error condition' "$log/exercise.txt" || ((result > 128 && result < 160)); then
-        printf 'Exercise %s crashes (exit code %d).\n' "$1" "$result"
+        verdict="crashes (exit code $result)."
+    elif ((result == 0)) || ! grep -q '^test cases\?: .* failed' "$log/exercise.txt"; then
+        verdict='ends the program before the checks are done: does it call exit?'
     else
-        printf 'Exercise %s is not solved yet; the checks above that FAILED say why.\n' "$1"
+        verdict="is not solved yet. This must be so, and is not: $(first_failure)."
     fi
-    printf 'The file is %s; ./book exercise hint %s helps.\n' "${stub#"$root"/}" "$1"
+    printf 'Exercise %s %s\nThe file is %s; ./book exercise hint %s helps.\n' "$1" "$verdict" "${stub#"$root"/}" "$1"
     return 1
 }
 
@@ -95,12 +139,12 @@ solution_exercise() {
 }
 
 reset_exercise() {
-    local kept
+    local kept number=1
     find_exercise "$1"
     git -C "$root" cat-file -e "HEAD:${stub#"$root"/}" 2>/dev/null ||
         die 3 "reset $1: the original comes from the git history, and there is none here"
     mkdir -p "$root/build/exercises"
-    kept=$root/build/exercises/$(basename "$stub")
+    while kept=$root/build/exercises/$exercise.$number.hpp && [[ -e $kept ]]; do number=$((number + 1)); done
     if git -C "$root" diff --quiet HEAD -- "$stub"; then
         printf 'Exercise %s is as it was.\n' "$1"
         return

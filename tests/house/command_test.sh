@@ -56,7 +56,9 @@ cp "$1/common/scripts/packages.txt" "$copy/common/scripts"
 
 stub=$(cd "$copy" && find chapters -path '*/ch01_*/exercises/ex01_*.hpp' | head -n 1)
 if [[ -n $stub ]]; then
-    ends 0 '^1\.1 .* of 3 .*not checked yet' exercise
+    ends 0 '^1\.1 .* of 3, .*not checked yet' exercise
+    ends 0 "${stub##*/}" exercise
+    (($(wc -L <"$tree/said.txt") <= 80)) || wrong "the list is wider than 80 columns: $(<"$tree/said.txt")"
     ends 0 'Hint 1 of 3' exercise hint 1.1
     ! grep -q 'Hint 2' "$tree/said.txt" || wrong 'the first hint tells the second'
     ends 0 'Hint 2 of 3' exercise hint 1.01
@@ -65,8 +67,11 @@ if [[ -n $stub ]]; then
     ends 0 'Exercise 1.1, solution' exercise solution 1.1
     ends 3 'git history, and there is none' exercise reset 1.1
     (cd "$copy" && git init -q . && git add chapters && git -c user.name=a -c user.email=b commit -qm copy)
-    echo '// changed' >>"$copy/$stub"
-    ends 0 'your version is kept in build/exercises/ex01' exercise reset 1.1
+    for version in 1 2; do
+        echo "// changed $version" >>"$copy/$stub"
+        ends 0 "your version is kept in build/exercises/ch01.ex01.*\\.$version\\.hpp" exercise reset 1.1
+    done
+    grep -q 'changed 1' "$copy"/build/exercises/ch01.ex01*.1.hpp || wrong 'the second reset overwrites the first kept version'
     cmp -s "$1/$stub" "$copy/$stub" || cmp -s <(git -C "$copy" show "HEAD:$stub") "$copy/$stub" || wrong 'reset did not restore the stub'
     ends 0 'is as it was' exercise reset 1.1
 fi
@@ -75,14 +80,35 @@ if [[ ${2:-} == check && -n $stub ]]; then
     cp "$1/$stub" "$copy/$stub"
     if git -C "$1" show "HEAD:$stub" >"$tree/stub" 2>/dev/null; then cp "$tree/stub" "$copy/$stub"; fi
     cp "$copy/$stub" "$tree/original"
-    ends 1 'is not solved yet' exercise check 1.1 --no-install
+    ends 1 'is not solved yet\. This must be so, and is not: ' exercise check 1.1 --no-install
+    (($(wc -l <"$tree/said.txt") <= 70)) || wrong "a failed check is long: $(<"$tree/said.txt")"
+    ! grep -qE '\{\?\}|host application' "$tree/said.txt" || wrong "a failed check is not readable: $(<"$tree/said.txt")"
     ends 0 '^1\.1 .*unsolved' exercise
     echo 'this is no C++' >>"$copy/$stub"
     ends 1 'does not compile yet' exercise check 1.1
-    ends 0 '^1\.1 .*not checked yet' exercise
-    { cat "$tree/original" && printf '#include <cstdlib>\n[[maybe_unused]] static const int crash = (std::abort(), 0);\n'; } >"$copy/$stub"
+    ends 0 '^1\.1 .*does not compile' exercise
+    # also_does CODE: the stub does this as well, before the checks run
+    also_does() {
+        {
+            cat "$tree/original"
+            printf '#include <cstdio>\n#include <cstdlib>\n#include <string>\n'
+            printf '[[maybe_unused]] static const int also = [] { %s return 0; }();\n' "$1"
+        } >"$copy/$stub"
+    }
+    also_does 'std::abort();'
     ends 1 'crashes \(exit code' exercise check 1.1
     ! grep -q 'exercises\.sh' "$tree/said.txt" || wrong "the shell speaks too: $(<"$tree/said.txt")"
+    also_does 'std::exit(0);'
+    ends 1 'before the checks are done' exercise check 1.1
+    also_does 'for (std::string s = "x";;) s += s;'
+    ends 1 'more than 2 GB' exercise check 1.1
+    also_does 'for (;;) std::puts("much");'
+    ends 1 'more than 10 MB' exercise check 1.1
+    (($(wc -l <"$tree/said.txt") <= 70)) || wrong "what an answer prints is long: $(wc -l <"$tree/said.txt") lines"
+    also_does 'int signed_one = 1; if (signed_one < std::string("xy").size()) std::puts("spoken");'
+    ends 1 'warning: comparison' exercise check 1.1
+    grep -q spoken "$tree/said.txt" || wrong "a warning keeps an answer from running: $(<"$tree/said.txt")"
+    ends 1 'warning: comparison' exercise check 1.1
     { head -n 3 "$1/$stub" && cat "$copy"/chapters/ch01_*/solutions/ex01_*.hpp; } >"$copy/$stub"
     ends 0 'is solved' exercise check 1.1
     ends 0 '^1\.1 .*  solved' exercise

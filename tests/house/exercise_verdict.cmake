@@ -11,8 +11,10 @@ execute_process(COMMAND "${PROGRAM}" ${CATCH_ARGUMENTS} TIMEOUT ${SECONDS}
                 RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
 
-if(result STREQUAL "0")
+if(result STREQUAL "0" AND output MATCHES "All tests passed \\(")
     set(verdict passes)
+elseif(result STREQUAL "0")  # std::exit in an answer
+    set(verdict "ends before its checks do")
 elseif(NOT result MATCHES "^[0-9]+$")  # "Segmentation fault", "Process terminated due to timeout"
     set(verdict "crashes or hangs (${result})")
 elseif(output MATCHES "unexpected exception|fatal error condition|Sanitizer:")

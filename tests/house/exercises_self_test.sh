@@ -48,10 +48,13 @@ verdict() {
     [[ $result == "$1" ]] || wrong "the verdict on a $2 that does '$3' is wrong: $(<"$tree/said.txt")"
 }
 failed_check='echo "test cases: 2 | 1 passed | 1 failed"; exit 1'
-verdict 0 solution 'exit 0'
+passed='echo "All tests passed (3 assertions in 2 test cases)"'
+verdict 0 solution "$passed"
+verdict 1 solution 'exit 0'
 verdict 1 solution "$failed_check"
 for variant in exercise near_miss; do
     verdict 0 $variant "$failed_check"
+    verdict 1 $variant "$passed"
     verdict 1 $variant 'exit 0'
     verdict 1 $variant 'kill -SEGV $$'
     verdict 1 $variant 'sleep 5'

@@ -2,7 +2,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "common/random.hpp"
-#include "tests/catch.hpp"
+#include "tests/check.hpp"
 
 #include <array>
 
@@ -54,6 +54,7 @@ TEST_CASE("2,000 random rays see what the naive tracer sees") {
     const Naive<> naive = Naive<>::build(triangles);
     for (int i = 0; i < 2'000; ++i) {
         const Ray ray{.origin = 2.0f * point(), .direction = point()};
-        CHECK(what_the_ray_sees(triangles, ray) == closest_hit(naive, ray));
+        CAPTURE(ray);
+        REQUIRE(what_the_ray_sees(triangles, ray) == closest_hit(naive, ray));
     }
 }

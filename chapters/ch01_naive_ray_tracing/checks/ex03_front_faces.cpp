@@ -1,6 +1,7 @@
 #include "ex03_front_faces.hpp"
 
-#include "tests/catch.hpp"
+#include "common/random.hpp"
+#include "tests/check.hpp"
 
 #include <array>
 
@@ -62,4 +63,29 @@ TEST_CASE("an octahedron shows one face, two or four, as the eye moves") {
 
 TEST_CASE("from inside, a body shows no front") {
     CHECK(front_faces(octahedron(), {.eye = {0.1f, 0.1f, 0.1f}, .target = {5, 0, 0}}).empty());
+}
+
+TEST_CASE("the eye's side is right for tiny triangles, and for an eye close to their planes") {
+    Pcg32 random(13);
+    const auto whole = [&] { return static_cast<std::int64_t>(random.below(2001)) - 1000; };
+    for (int i = 0; i < 20'000; ++i) {
+        // In whole numbers, so that the side is known: the eye is one step off a point of the
+        // plane.
+        std::int64_t a[3], b[3], c[3], eye[3];
+        for (int k = 0; k < 3; ++k) a[k] = whole();
+        for (int k = 0; k < 3; ++k) b[k] = whole();
+        for (int k = 0; k < 3; ++k) c[k] = whole();
+        for (int k = 0; k < 3; ++k) eye[k] = 2 * b[k] - a[k] + (c[k] - a[k]);
+        eye[i % 3] += i % 2 ? 1 : -1;
+        std::int64_t volume = 0;
+        for (int k = 0, l = 1, m = 2; k < 3; ++k, l = (l + 1) % 3, m = (m + 1) % 3)
+            volume +=
+                ((b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l])) * (eye[k] - a[k]);
+        const float size = std::ldexp(1.0f, -static_cast<int>(random.below(31)));
+        const auto point = [&](const std::int64_t* p) { return size * Point3(p[0], p[1], p[2]); };
+        const Triangle triangle{point(a), point(b), point(c)};
+        const Camera camera{.eye = point(eye), .target = point(a)};
+        CAPTURE(triangle, camera.eye);
+        REQUIRE(front_faces(std::array{triangle}, camera) == (volume > 0 ? Indices{0} : Indices{}));
+    }
 }

@@ -2,7 +2,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "common/random.hpp"
-#include "tests/catch.hpp"
+#include "tests/check.hpp"
 
 #include <numeric>
 
@@ -54,6 +54,14 @@ TEST_CASE("a shadow ray costs no more than the tests up to the first hit") {
                     .field_of_view = 1.0f};  // the floor, below the small triangle
     scene.lights = {{.position = {0, 0, 4}}};
     CHECK(tests_per_pixel(scene, 1, 1) == std::vector<std::uint64_t>{2 + 1});
+}
+
+TEST_CASE("the top left pixel comes first, and its row before the next") {
+    Scene scene;  // a triangle that only the picture's top right quarter sees, lit from the front
+    scene.mesh = {{{1, 1, 0}, {90, 1, 0}, {1, 90, 0}}, {{0, 1, 2}}};
+    scene.camera = {.eye = {0, 0, 5}, .target = {0, 0, 0}, .field_of_view = 90.0f};
+    scene.lights = {{.position = {0, 0, 5}}};
+    CHECK(tests_per_pixel(scene, 2, 2) == std::vector<std::uint64_t>{1, 2, 1, 1});
 }
 
 TEST_CASE("the pixels' tests add up to the renderer's") {
