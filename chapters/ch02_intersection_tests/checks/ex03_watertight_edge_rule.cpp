@@ -1,7 +1,7 @@
 #include "ex03_watertight_edge_rule.hpp"
 
 #include "common/pcg32.hpp"
-#include "tests/catch.hpp"
+#include "tests/check.hpp"
 
 #include <array>
 #include <vector>
@@ -44,15 +44,52 @@ TEST_CASE("a point in the middle of a triangle is its own, and one outside is no
 TEST_CASE("every point inside a triangulated square belongs to exactly one triangle") {
     Pcg32 random(3);
     const std::vector<Face> faces = square(6, random);
-    int holes = 0, twice = 0;
     for (int y = 1; y < 24; ++y)
         for (int x = 1; x < 24; ++x) {
-            const int count = owners(faces, Point2(x, y));
-            holes += count == 0;
-            twice += count > 1;
+            const Point2 point(x, y);
+            CAPTURE(point);
+            REQUIRE(owners(faces, point) == 1);
         }
-    CHECK(holes == 0);
-    CHECK(twice == 0);
+}
+
+TEST_CASE("a point is given away on edges of every slope and length") {
+    // Both triangles of a parallelogram with whole corners, and its diagonal's whole points.
+    for (int dx = -12; dx <= 12; ++dx)
+        for (int dy = -12; dy <= 12; ++dy)
+            for (const int length : {2, 40}) {
+                if (dx == 0 && dy == 0) continue;
+                const Point2 step(dx, dy), a(-7, 5), c = a + static_cast<float>(length) * step;
+                const Point2 left(-2 * dy, 2 * dx);
+                const std::vector<Face> faces{{a, c, a + left}, {c, a, c - left}};
+                for (int i = 1; i < length; ++i) {
+                    const Point2 point = a + static_cast<float>(i) * step;
+                    CAPTURE(a, c, point);
+                    REQUIRE(owners(faces, point) == 1);
+                }
+            }
+}
+
+TEST_CASE("what is inside is owned and what is outside is not, in thin triangles, too") {
+    Pcg32 random(23);
+    const auto place = [&] { return static_cast<float>(random.below(2001)) - 1000.0f; };
+    for (int i = 0; i < 20'000; ++i) {
+        Point2 a, b, c;
+        for (Point2* corner : {&a, &b, &c})
+            for (int axis = 0; axis < 2; ++axis) (*corner)[axis] = place();
+        if (i % 2) c = b + Point2(random.below(2), 1);
+        const auto area = [](const Point2& p, const Point2& q, const Point2& r) {
+            const Double2 pq = Double2(q) - Double2(p), pr = Double2(r) - Double2(p);
+            return pq.x * pr.y - pq.y * pr.x;
+        };
+        if (area(a, b, c) < 0) std::swap(a, b);
+        // Near the middle of a side, a step or none off it.
+        Point2 point = glm::floor(0.5f * (a + b));
+        point += Point2(random.below(3), random.below(3)) - Point2(1);
+        const double least = std::min({area(a, b, point), area(b, c, point), area(c, a, point)});
+        if (least == 0) continue;
+        CAPTURE(a, b, c, point);
+        REQUIRE(owns(a, b, c, point) == (least > 0));
+    }
 }
 
 TEST_CASE("the hub of a fan belongs to exactly one of its triangles") {

@@ -3,9 +3,10 @@
 /// Difficulty 1 of 3, about 15 minutes.
 ///
 /// Lichter23's first test computes u and v as lengths of two cross products over the length of the
-/// normal, with three square roots: the lengths of the three vectors. They are parallel, and u and
-/// v are ratios of parallel vectors. Compute the same weights with at most two roots. `root` counts
-/// how often it is called; fewer than two is welcome.
+/// normal, with three square roots: one in each glm::length. The vectors are parallel, and u and v
+/// are ratios of parallel vectors. Compute the same weights with at most two roots; fewer are
+/// welcome. Real is float, or a number of the check's that counts its square roots and knows +, -,
+/// *, / and sqrt(x), without std::.
 #pragma once
 
 #include "common/geometry.hpp"
@@ -15,15 +16,16 @@ namespace space {
 /// The weights of b and c: |of_b| / |n| and |of_c| / |n|, where n is the cross product of two of
 /// the triangle's edges, and of_b and of_c are those of the parts of the triangle across from b and
 /// c. All three are parallel.
+template <class Real>
 struct Weights {
-    float u, v;
+    Real u, v;
 };
 
-template <class Root>
-Weights weights(const Vector3& of_b, const Vector3& of_c, const Vector3& n, const Root& root) {
+template <class Real>
+Weights<Real> weights(const glm::vec<3, Real>& of_b, const glm::vec<3, Real>& of_c,
+                      const glm::vec<3, Real>& n) {
     // TODO: two square roots are enough
-    const float length = root(glm::dot(n, n));
-    return {root(glm::dot(of_b, of_b)) / length, root(glm::dot(of_c, of_c)) / length};
+    return {glm::length(of_b) / glm::length(n), glm::length(of_c) / glm::length(n)};
 }
 
 }  // namespace space

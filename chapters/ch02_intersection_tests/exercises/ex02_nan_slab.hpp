@@ -5,7 +5,8 @@
 /// A ray that runs in the plane of a box's face has a direction component of zero and an origin on
 /// the slab: 0 times infinity is not a number, and the comparison after it goes astray. The stub
 /// loses such rays. Make it right for every ray whose numbers are small and whole, with 0 and -0
-/// among the direction's components: the box is closed. No case of its own for zero is needed.
+/// among the direction's components: the box is closed. A ray that runs beside a face misses, even
+/// if only by the last bit. No case of its own for zero is needed.
 #pragma once
 
 #include "common/geometry.hpp"

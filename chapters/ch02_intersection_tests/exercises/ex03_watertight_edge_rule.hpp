@@ -6,7 +6,8 @@
 /// picture paints it twice; it belongs to none if they are open, and the picture has a hole. Give
 /// each point of a triangulated region to exactly one triangle: a point on an edge belongs to the
 /// triangle for which the edge is a left edge or a horizontal lower edge (any such rule does).
-/// Triangles are counter-clockwise, coordinates small whole numbers: the edge functions are exact.
+/// Triangles are counter-clockwise, coordinates whole and from -1,000 to 1,000: the edge functions
+/// are exact. A point inside a triangle is its own, however thin it is.
 #pragma once
 
 #include "common/geometry.hpp"

@@ -9,14 +9,16 @@ namespace space {
 /// The weights of b and c: |of_b| / |n| and |of_c| / |n|, where n is the cross product of two of
 /// the triangle's edges, and of_b and of_c are those of the parts of the triangle across from b and
 /// c. All three are parallel.
+template <class Real>
 struct Weights {
-    float u, v;
+    Real u, v;
 };
 
-template <class Root>
-Weights weights(const Vector3& of_b, const Vector3& of_c, const Vector3& n, const Root& root) {
-    const float square = glm::dot(n, n);
-    return {root(glm::dot(of_b, of_b) / square), root(glm::dot(of_c, of_c) / square)};
+template <class Real>
+Weights<Real> weights(const glm::vec<3, Real>& of_b, const glm::vec<3, Real>& of_c,
+                      const glm::vec<3, Real>& n) {
+    const Real square = glm::dot(n, n);
+    return {sqrt(glm::dot(of_b, of_b) / square), sqrt(glm::dot(of_c, of_c) / square)};
 }
 
 }  // namespace space
