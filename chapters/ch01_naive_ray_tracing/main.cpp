@@ -59,12 +59,11 @@ void draw_pictures(const ChapterOptions& options) {
     Progress tracing("ray tracing " + options.scene, static_cast<std::size_t>(settings.height));
     const Rendering corrected = render(scene, naive, settings, &tracing);
 
-    // As printed, little is seen but the list's last triangle: some crumb on the table, or in
-    // reverse a wall.
-    const Scene reversed = in_reverse(scene);
+    // As printed, nothing is seen but the list's last triangle, and that only where it is hit
+    // first, in front of the eye or behind it: here, nothing at all.
     Progress as_printed("the same as printed", static_cast<std::size_t>(settings.height));
     const Rendering printed =
-        algorithm1_as_printed(reversed, reversed.mesh.triangles(), settings, &as_printed);
+        algorithm1_as_printed(scene, scene.mesh.triangles(), settings, &as_printed);
 
     const Image rasterised =
         render_rasterised(scene, settings.width, settings.height, settings.samples);

@@ -107,22 +107,21 @@ Rendering render(const Scene& scene, const A& accelerator, const RenderSettings&
 }
 
 // [as_printed]
-/// One ray of Algorithm 1 as printed; nothing stands for the background. Fault 1: the background is
-/// set inside the loop over the polygons, so that a hit lives only until the next polygon that is
-/// missed. Fault 2: the shadow ray is formed, and nobody asks what it hits.
+/// One ray of Algorithm 1 as printed; nothing stands for the background.
 inline std::optional<Color> color_of_ray_as_printed(const Scene& scene,
                                                     std::span<const Triangle> triangles,
                                                     const Ray& ray) {
+    const Ray line{ray.origin, ray.direction, -infinity, infinity};  // fault 3: any t, also t < 0
     std::optional<Color> color;
     float nearest = infinity;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        if (std::optional<Hit> hit = MollerTrumbore::intersect(ray, triangles[i])) {
-            if (hit->t >= nearest) continue;
+        std::optional<Hit> hit = MollerTrumbore::intersect(line, triangles[i]);
+        if (hit && hit->t < nearest) {
             nearest = hit->t;
             hit->triangle = i;
-            color = shade(scene, ray, *hit, [](const Ray& /*shadow*/) { return true; });  // fault 2
+            color = shade(scene, ray, *hit, [](const Ray&) { return true; });  // fault 2: no shadow
         } else {
-            color.reset();  // fault 1
+            color.reset();  // fault 1: missed, or hit farther away
         }
     }
     return color;

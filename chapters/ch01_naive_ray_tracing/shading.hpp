@@ -33,7 +33,7 @@ inline Double3 hit_point(const Triangle& triangle, const Hit& hit) {
     return a + double{hit.u} * (b - a) + double{hit.v} * (c - a);
 }
 
-/// Largest relative error of rounding to float.
+/// u24, the largest relative error of rounding to float.
 inline constexpr double float_roundoff = 0x1p-24;
 
 // [shadow_origin]
@@ -41,13 +41,14 @@ inline constexpr double float_roundoff = 0x1p-24;
 /// length) without meeting the triangle again. The hit point P, rounded to float, lies beside the
 /// plane as often as before it, and half of the shadow rays would hit the triangle that they start
 /// from. So each coordinate is first moved in the direction of n's, by two roundings of the
-/// triangle's largest coordinate m. With e = 2^-24 rounding takes back at most e m (1 + 2 e):
-///     n . (P' - P) >= sum |n_i| (2 e m - e m (1 + 2 e)) > 0.99 e m |n|.
+/// triangle's largest coordinate m. With u24 = 2^-24 rounding takes back at most
+/// u24 m (1 + 2 u24):
+///     n . (P' - P) >= sum |n_i| (2 u24 m - u24 m (1 + 2 u24)) > 0.99 u24 m |n|.
 /// This product is the numerator of t in the ray-triangle test, a volume of P' - a and two edges.
-/// Computed in double it is off by at most 8 * 2^-53 times the product of their 1-norms, each up to
-/// sqrt(3) times the triangle's size w: 2^-47.6 w^3. As w <= 2 sqrt(3) m, the product is more than
-/// that for every triangle but needles whose area is below 2^-22 of their length squared. The bound
-/// grows with the distance from the world's origin, as the float grid does; it is no scene's
+/// Computed in double it is off by at most 8 u53 = 2^-50 times the product of their 1-norms, each
+/// up to sqrt(3) times the triangle's size L: 2^-47.6 L^3. As L <= 2 sqrt(3) m, the product is more
+/// than that for every triangle but needles whose area is below 2^-22 of their length squared. The
+/// bound grows with the distance from the world's origin, as the float grid does; it is no scene's
 /// epsilon.
 inline Point3 shadow_origin(const Triangle& triangle, const Double3& point, const Double3& n) {
     const Aabb box = bounds(triangle);

@@ -58,6 +58,31 @@ TEST_CASE("as printed: a later polygon that is missed erases the hit") {
     CHECK(printed.counts.hits < 40 * 30 / 2);
 }
 
+TEST_CASE("as printed: a later polygon that is hit farther away erases the hit, too") {
+    const Scene near_first = shaded_floor();
+    Scene far_first = near_first;
+    std::swap(far_first.mesh.faces[0], far_first.mesh.faces[1]);
+    const Ray ray{.origin = {0, 0, 2}, .direction = {0, 0, -1}};
+    for (const Triangle& triangle : near_first.mesh.triangles())
+        REQUIRE(MollerTrumbore::intersect(ray, triangle));
+    CHECK_FALSE(color_of_ray_as_printed(near_first, near_first.mesh.triangles(), ray));
+    CHECK(color_of_ray_as_printed(far_first, far_first.mesh.triangles(), ray));
+}
+
+TEST_CASE("as printed: t may be negative, and what is behind the eye wins") {
+    Scene scene = shaded_floor();  // the floor, then the small triangle 1 above it
+    std::swap(scene.mesh.faces[0], scene.mesh.faces[1]);
+    scene.colors = {Color(0.0f), Color(1.0f)};
+    const Ray ray{.origin = {0, 0, 0.5f}, .direction = {0, 0, -1}};  // from between them, downwards
+    RenderCounts rays;
+    NoCounts none;
+    const std::vector<Triangle> triangles = scene.mesh.triangles();
+    CHECK(color_of_ray(scene, Naive<>::build(triangles), ray, rays, none) == Color(0.0f));
+    const std::optional<Color> printed = color_of_ray_as_printed(scene, triangles, ray);
+    REQUIRE(printed);
+    CHECK(printed->x > 0.0f);
+}
+
 TEST_CASE("as printed: the shadow ray's result is never used") {
     const Scene scene = shaded_floor();
     const std::vector<Triangle> triangles = scene.mesh.triangles();

@@ -8,11 +8,12 @@
 namespace space::ch01 {
 namespace {
 
-/// H1 and P1: how the times grow.
-std::array<ClaimAnswer, 2> growth_claims(const std::vector<GrowthPoint>& growth) {
+/// H1, P18 and P1: how the times grow.
+std::array<ClaimAnswer, 3> growth_claims(const std::vector<GrowthPoint>& growth) {
     const auto linear = [](double slope) { return slope >= 0.9 && slope <= 1.1; };
+    const auto quadratic = [](double slope) { return slope >= 1.8 && slope <= 2.2; };
     std::vector<std::string> naive_slopes, rasteriser_slopes;
-    std::size_t naive_linear = 0, rasteriser_linear = 0;
+    std::size_t naive_linear = 0, naive_quadratic = 0, rasteriser_linear = 0;
     const std::vector<std::string> grown = scenes_of(growth);
     for (const std::string& scene : grown) {
         const Slopes slope = slopes(growth, scene);
@@ -20,6 +21,7 @@ std::array<ClaimAnswer, 2> growth_claims(const std::vector<GrowthPoint>& growth)
         rasteriser_slopes.push_back(fmt::format("{} {:.2f} ({:.2f} over all)", scene,
                                                 slope.rasteriser_last, slope.rasteriser));
         naive_linear += linear(slope.naive);
+        naive_quadratic += quadratic(slope.naive);
         rasteriser_linear += slope.rasteriser_last >= 0.8 && slope.rasteriser_last <= 1.2;
     }
     const auto [least, most] =
@@ -33,7 +35,11 @@ std::array<ClaimAnswer, 2> growth_claims(const std::vector<GrowthPoint>& growth)
         {{"H1", verdict_of(naive_linear, grown.size()),
           fmt::format("log-log slopes: {}", joined(naive_slopes)), range,
           "confirmed if the slope of naive tracing time over the triangles is within 0.9 .. 1.1 on "
-          "every scene, refuted "
+          "every scene, refuted if on none"},
+         {"P18", verdict_of(naive_quadratic, grown.size()),
+          fmt::format("log-log slopes of naive tracing time per pixel: {}", joined(naive_slopes)),
+          range,
+          "confirmed if the slope over the triangles is within 1.8 .. 2.2 on every scene, refuted "
           "if "
           "on none"},
          {"P1", verdict_of(rasteriser_linear, grown.size()),
@@ -41,9 +47,7 @@ std::array<ClaimAnswer, 2> growth_claims(const std::vector<GrowthPoint>& growth)
                       joined(rasteriser_slopes)),
           range,
           "confirmed if the slope of rasterising time over the triangles, at the largest sizes, is "
-          "within 0.8 .. 1.2 on "
-          "every "
-          "scene, refuted if on none"}}};
+          "within 0.8 .. 1.2 on every scene, refuted if on none"}}};
 }
 
 /// H2: the share of the tests.
@@ -80,12 +84,12 @@ ClaimAnswer share_claim(const std::vector<SharePoint>& shares) {
         "refuted if it is smaller"};
 }
 
-/// H3 and H14: counts.
-std::array<ClaimAnswer, 2> count_claims(const std::vector<SceneCounts>& counts) {
+/// H3, H14 and H16: counts.
+std::array<ClaimAnswer, 3> count_claims(const std::vector<SceneCounts>& counts) {
     Winding winding;
-    std::uint64_t hits = 0, printed = 0, reversed = 0;
+    std::uint64_t hits = 0, printed = 0, reversed = 0, behind = 0, behind_wins = 0;
     std::size_t erasing = 0;
-    std::vector<std::string> counted;
+    std::vector<std::string> counted, surrounded;
     for (const SceneCounts& scene : counts) {
         winding.triangles += scene.winding.triangles;
         winding.flipped += scene.winding.flipped;
@@ -93,6 +97,9 @@ std::array<ClaimAnswer, 2> count_claims(const std::vector<SceneCounts>& counts) 
         hits += scene.hits;
         printed += scene.hits_as_printed;
         reversed += scene.hits_in_reverse;
+        behind += scene.behind;
+        behind_wins += scene.behind_wins;
+        if (scene.behind) surrounded.push_back(scene.scene);
         erasing += scene.hits_as_printed < scene.hits;
         counted.push_back(scene.scene);
     }
@@ -112,15 +119,23 @@ std::array<ClaimAnswer, 2> count_claims(const std::vector<SceneCounts>& counts) 
                       with_commas(hits), with_commas(printed), with_commas(reversed)),
           joined(counted),
           "confirmed if Algorithm 1 as printed shows fewer hits than there are on every scene, "
-          "refuted if on none"}}};
+          "refuted if on none"},
+         {"H16", behind_wins ? Verdict::confirmed : Verdict::refuted,
+          fmt::format(
+              "with t in R the smallest t of {} pixels' rays is behind the eye, on {}; {} of "
+              "these see something in front, which loses",
+              with_commas(behind), surrounded.empty() ? "no scene" : joined(surrounded),
+              with_commas(behind_wins)),
+          joined(counted),
+          "confirmed if what is behind the eye wins over something in front in one pixel"}}};
 }
 
 }  // namespace
 
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured) {
-    const auto [h1, p1] = growth_claims(measured.growth);
-    const auto [h3, h14] = count_claims(measured.counts);
-    return {h1, share_claim(measured.shares), h3, h14, p1};
+    const auto [h1, p18, p1] = growth_claims(measured.growth);
+    const auto [h3, h14, h16] = count_claims(measured.counts);
+    return {h1, share_claim(measured.shares), h3, h14, h16, p1, p18};
 }
 
 }  // namespace space::ch01

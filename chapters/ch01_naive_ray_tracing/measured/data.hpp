@@ -24,6 +24,9 @@ struct SceneCounts {
         0;  ///< pixels that still show a triangle in Algorithm 1 as printed
     std::uint64_t hits_in_reverse =
         0;  ///< the same, the triangles listed from the last to the first
+    /// Pixels whose ray, with any real t, first meets what is behind the eye, and those of them
+    /// that see something in front.
+    std::uint64_t behind = 0, behind_wins = 0;
     /// Pixels in which ray tracer and rasteriser see different triangles, and why (coverage.hpp).
     std::uint64_t covered = 0, disagree = 0, near_edge = 0, same_depth = 0, unexplained = 0;
     Winding winding;

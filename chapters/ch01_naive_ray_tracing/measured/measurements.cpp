@@ -142,6 +142,26 @@ std::vector<RayAtVertex> rays_at_vertices(const TriangleMesh& sphere, std::size_
 
 }  // namespace
 
+namespace {
+
+/// Counts the pixels that lose to what is behind the eye where t has no lower bound.
+void count_behind(const Scene& scene, const Naive<>& naive, SceneCounts& counts, int width,
+                  int height) {
+    const PixelGrid grid(scene.camera, width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            Ray ray = grid.ray(x, y);
+            const bool in_front = any_hit(naive, ray);
+            ray.tmin = -infinity;
+            const std::optional<Hit> first = closest_hit(naive, ray);
+            if (!first || first->t >= 0.0f) continue;
+            ++counts.behind;
+            counts.behind_wins += in_front;
+        }
+}
+
+}  // namespace
+
 Scene in_reverse(Scene scene) {
     std::reverse(scene.mesh.faces.begin(), scene.mesh.faces.end());
     std::reverse(scene.colors.begin(), scene.colors.end());
@@ -182,6 +202,7 @@ std::vector<SceneCounts> count_scenes(const Options& options) {
              .same_depth = coverage.same_depth,
              .unexplained = coverage.unexplained,
              .winding = check_winding(triangles)});
+        count_behind(scene, naive, all.back(), width, height);
         progress.step();
     }
     return all;

@@ -8,14 +8,18 @@
 namespace space::ch01 {
 
 void print_counts(const std::vector<SceneCounts>& all) {
-    print_heading("Tests per pixel, and hits that Algorithm 1 as printed erases");
+    print_heading(
+        "Tests per pixel; hits that Algorithm 1 as printed leaves; those that what is behind the "
+        "eye "
+        "wins over");
     Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse",
-                 "shadow rays", "occluded", "tests", "per pixel"});
+                 "behind", "shadow rays", "occluded", "tests", "per pixel"});
     for (const SceneCounts& s : all)
         tests.row({s.scene, with_commas(s.triangles), with_commas(s.lights), with_commas(s.pixels),
                    with_commas(s.hits), with_commas(s.hits_as_printed),
-                   with_commas(s.hits_in_reverse), with_commas(s.shadow_rays),
-                   with_commas(s.occluded), with_commas(s.tests), with_commas(s.tests / s.pixels)});
+                   with_commas(s.hits_in_reverse), with_commas(s.behind_wins),
+                   with_commas(s.shadow_rays), with_commas(s.occluded), with_commas(s.tests),
+                   with_commas(s.tests / s.pixels)});
     tests.print();
 
     print_heading("Ray tracer and rasteriser: pixels in which they see different triangles");
