@@ -362,6 +362,11 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
             xml_escaped(title));
     };
     std::string menu;
+    const auto text_of_book = [&](const char* file, const char* title) {
+        if (const auto page = page_id(places.root / "docs" / file)) menu += tab(*page, title);
+    };
+    text_of_book("before_you_start.dox", "Before you start");
+    text_of_book("cpp20.dox", "The C++20 that the code uses");
     for (const Chapter& chapter : chapters)
         if (const auto page = page_id(places, chapter)) {
             menu += tab(*page, fmt::format("{}. {}", chapter.number, chapter.title));
@@ -371,9 +376,8 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
         }
     menu += tab("exercises", "Exercises") + tab("figures", "Figures") +
             tab("ledger", "Claims and verdicts");
-    for (const auto& [file, title] :
-         {std::pair{"glossary.dox", "Glossary"}, {"bibliography.dox", "Bibliography"}})
-        if (const auto page = page_id(places.root / "docs" / file)) menu += tab(*page, title);
+    text_of_book("glossary.dox", "Glossary");
+    text_of_book("bibliography.dox", "Bibliography");
     if (exists(places.root / "docs/adding_a_chapter.md"))
         menu += tab("adding_a_chapter", "Adding a chapter");
     return "<doxygenlayout version=\"1.0\">\n  <navindex>\n    <tab type=\"mainpage\" "
