@@ -9,9 +9,7 @@ namespace space::ch01 {
 
 void print_counts(const std::vector<SceneCounts>& all) {
     print_heading(
-        "Tests per pixel; hits that Algorithm 1 as printed leaves; those that what is behind the "
-        "eye "
-        "wins over");
+        "Tests per pixel, hits that Algorithm 1 as printed leaves, hits lost to what is behind");
     Table tests({"scene", "triangles", "lights", "pixels", "hits", "as printed", "in reverse",
                  "behind", "shadow rays", "occluded", "tests", "per pixel"});
     for (const SceneCounts& s : all)
