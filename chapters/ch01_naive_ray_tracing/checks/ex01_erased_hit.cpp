@@ -40,6 +40,19 @@ TEST_CASE("of two equal hits the smaller index wins") {
     CHECK(seen->triangle == 1);
 }
 
+TEST_CASE("however far, near or close together the hits are, the nearest wins") {
+    for (const float depth : {1e-20f, 1e-4f, 3.0f, 1e6f, 1e30f}) {
+        const Triangle wide{{-1e35f, -1e35f, -depth}, {1e35f, -1e35f, -depth}, {0, 1e35f, -depth}};
+        Triangle behind = wide;
+        behind.a.z = behind.b.z = behind.c.z = std::nextafter(-depth, -infinity);
+        CAPTURE(depth);
+        const auto seen = what_the_ray_sees(std::array{behind, wide, behind}, ahead);
+        REQUIRE(seen);
+        REQUIRE(seen->t == depth);
+        REQUIRE(seen->triangle == 1);
+    }
+}
+
 TEST_CASE("a ray that meets nothing sees nothing") {
     CHECK_FALSE(what_the_ray_sees({}, ahead));
     const std::array triangles{at_depth(4, 10), at_depth(2, -10)};

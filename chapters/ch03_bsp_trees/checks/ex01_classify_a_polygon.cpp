@@ -1,6 +1,6 @@
 #include "ex01_classify_a_polygon.hpp"
 
-#include "tests/catch.hpp"
+#include "tests/check.hpp"
 
 #include <array>
 #include <vector>
@@ -45,6 +45,20 @@ TEST_CASE("a square that the plane cuts from corner to corner lies across it") {
     CHECK(classify(square, floor_plane) == PlaneSide::straddling);
 }
 
+TEST_CASE("a corner that is only just off the plane is off it") {
+    for (const float off : {0x1p-10f, 0x1p-20f, 0x1p-30f, 0x1p-100f}) {
+        CAPTURE(off);
+        REQUIRE(classify(Polygon{{0, 0, off}, {4, 0, 0}, {0, 4, 0}}, floor_plane) ==
+                PlaneSide::front);
+        REQUIRE(classify(Polygon{{0, 0, 0}, {4, 0, -off}, {0, 4, 0}}, floor_plane) ==
+                PlaneSide::back);
+        REQUIRE(classify(Polygon{{0, 0, 2}, {4, 0, -off}, {0, 4, 0}}, floor_plane) ==
+                PlaneSide::straddling);
+        REQUIRE(classify(Polygon{{0, 0, off}, {4, 0, -off}, {0, 4, off}}, floor_plane) ==
+                PlaneSide::straddling);
+    }
+}
+
 TEST_CASE("the plane's position and facing count") {
     const Polygon triangle{{0, 0, 1}, {4, 0, 1}, {0, 4, 2}};
     CHECK(classify(triangle, SplitPlane<3>({Point3(0, 0, 0), Point3(0, 1, 0), Point3(1, 0, 0)})) ==
@@ -58,7 +72,7 @@ TEST_CASE("the plane's position and facing count") {
 TEST_CASE("every sequence of corners in front, on and behind is classified by all of its corners") {
     // x + 2y + 3z = 6, and a corner on each of its sides and on it.
     const SplitPlane<3> plane({Point3(6, 0, 0), Point3(0, 3, 0), Point3(0, 0, 2)});
-    int wrong = 0, cases = 0;
+    int cases = 0;
     for (int count = 3, sequences = 27; count <= 5; ++count, sequences *= 3)
         for (int sequence = 0; sequence < sequences; ++sequence) {
             Polygon polygon;
@@ -72,9 +86,9 @@ TEST_CASE("every sequence of corners in front, on and behind is classified by al
                                        : seen[2]          ? PlaneSide::front
                                        : seen[0]          ? PlaneSide::back
                                                           : PlaneSide::coplanar;
-            wrong += classify(polygon, plane) != expected;
             ++cases;
+            CAPTURE(polygon);
+            REQUIRE(classify(polygon, plane) == expected);
         }
     CHECK(cases == 27 + 81 + 243);
-    CHECK(wrong == 0);
 }

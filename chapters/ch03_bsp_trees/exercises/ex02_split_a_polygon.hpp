@@ -7,7 +7,7 @@
 /// on the plane goes to both pieces, once each, and so does the point where an edge passes through
 /// the plane. Checked on every polygon made of some of ten corners, with numbers for which every
 /// cut is exact: the pieces must have the right corners and no more, lie on their sides and have
-/// the polygon's area.
+/// the polygon's area; and on cuts at thirds and sevenths, which may be off by a float's rounding.
 #pragma once
 
 #include "chapters/ch03_bsp_trees/fragment.hpp"

@@ -8,8 +8,8 @@
 /// crack. Mend it: cut(p, q, ...) and cut(q, p, ...) must be the same point, bit for bit, for
 /// every edge whose ends lie on different sides. It must still be the cut. The checks count the
 /// cracks of 100,000 edges, and the points that are farther from the plane or from the edge than
-/// roundings of floats explain. To compute in double makes cracks rare and does not close them:
-/// the checks know where.
+/// roundings of floats explain. To compute in double makes cracks rare and does not close them,
+/// nor does it to snap the point to a grid: the checks know where.
 #pragma once
 
 #include "common/geometry.hpp"

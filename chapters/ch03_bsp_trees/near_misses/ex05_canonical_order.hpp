@@ -1,16 +1,19 @@
 /// @file
-/// Exercise 3.5, a near miss: begins at the nearer end, but with an s that was measured from the
-/// end that came first; 1 - s is not what the neighbour divides out.
+/// Exercise 3.5, a near miss: computes in double and snaps the point to a grid, as programs do that
+/// "weld" corners. Where the exact cut is halfway between two places of the grid, the neighbours
+/// snap to either side.
 #pragma once
 
 #include "common/geometry.hpp"
 
+#include <glm/common.hpp>
+
 namespace space {
 
 inline Point3 cut(const Point3& p, const Point3& q, const Vector3& normal, float offset) {
-    const float at_p = glm::dot(normal, p) - offset, at_q = glm::dot(normal, q) - offset;
-    const float s = at_p / (at_p - at_q);
-    return s <= 0.5f ? p + s * (q - p) : q + (1.0f - s) * (p - q);
+    const Double3 a(p), b(q), n(normal);
+    const double at_p = glm::dot(n, a) - offset, at_q = glm::dot(n, b) - offset;
+    return Point3(glm::round((a + at_p / (at_p - at_q) * (b - a)) * 0x1p20) / 0x1p20);
 }
 
 }  // namespace space
