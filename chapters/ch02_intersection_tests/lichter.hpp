@@ -70,48 +70,4 @@ struct LichterImproved {
     // [lichter_improved]
 };
 
-/// The first with one of the two changes only, to tell what each of them brings: two roots, still
-/// in the first's order ...
-struct LichterFewerRoots {
-    static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
-        const auto& [a, b, c] = triangle;
-        const Vector3 n = glm::cross(b - a, c - a);
-        const float slope = glm::dot(n, ray.direction);
-        if (std::abs(slope) < lichter_epsilon) return std::nullopt;
-        const float t = glm::dot(n, a - ray.origin) / slope;
-        const Point3 p = ray.at(t);
-        const Vector3 of_c = glm::cross(b - a, p - a), of_a = glm::cross(c - b, p - b),
-                      of_b = glm::cross(a - c, p - c);
-        const float square = glm::dot(n, n);
-        const float u = std::sqrt(glm::dot(of_b, of_b) / square),
-                    v = std::sqrt(glm::dot(of_c, of_c) / square);
-        if (glm::dot(of_a, n) < 0.0f || glm::dot(of_b, n) < 0.0f || glm::dot(of_c, n) < 0.0f)
-            return std::nullopt;
-        if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
-        return finite({.t = t, .u = u, .v = v});
-    }
-};
-
-/// ... or the improved order, still with three roots.
-struct LichterEarlyExit {
-    static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
-        const auto& [a, b, c] = triangle;
-        const Vector3 n = glm::cross(b - a, c - a);
-        const float slope = glm::dot(n, ray.direction);
-        if (std::abs(slope) < lichter_epsilon) return std::nullopt;
-        const float t = glm::dot(n, a - ray.origin) / slope;
-        if (!(t >= ray.tmin && t <= ray.tmax)) return std::nullopt;
-        const Point3 p = ray.at(t);
-        const Vector3 of_c = glm::cross(b - a, p - a);
-        if (glm::dot(of_c, n) < 0.0f) return std::nullopt;
-        if (glm::dot(glm::cross(c - b, p - b), n) < 0.0f) return std::nullopt;
-        const Vector3 of_b = glm::cross(a - c, p - c);
-        if (glm::dot(of_b, n) < 0.0f) return std::nullopt;
-        const float length = std::sqrt(glm::dot(n, n));
-        return finite({.t = t,
-                       .u = std::sqrt(glm::dot(of_b, of_b)) / length,
-                       .v = std::sqrt(glm::dot(of_c, of_c)) / length});
-    }
-};
-
 }  // namespace space

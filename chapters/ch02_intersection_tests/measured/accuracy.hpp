@@ -60,6 +60,8 @@ BoxAccuracy lattice_box_accuracy();
 BoxAccuracy box_accuracy(std::uint64_t pairs, std::uint64_t seed, unsigned threads);
 
 RaysFromInside rays_from_inside(std::uint64_t rays, std::uint64_t seed);
+/// Triangles and origins on a grid, so that each ray passes exactly through its vertex.
+RaysInFaces rays_in_faces(std::uint64_t rays, std::uint64_t seed);
 
 OrientedBoxes oriented_box_accuracy(std::uint64_t rays, std::uint64_t seed);
 

@@ -1,3 +1,4 @@
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch02_intersection_tests/measured/accuracy.hpp"
 #include "chapters/ch02_intersection_tests/measured/chunks.hpp"
 #include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
@@ -73,6 +74,28 @@ RaysFromInside rays_from_inside(std::uint64_t rays, std::uint64_t seed) {
         const Ray ray{.origin = glm::clamp(Point3(Double3(box.min) + share * Double3(box.extent())),
                                            box.min, box.max),
                       .direction = Vector3(random_direction(random))};
+        for_each_named(box_tests, [&](std::size_t test, const auto& named) {
+            result.rejected[test] += !TestOf<decltype(named)>::intersect(ray, box);
+        });
+    }
+    return result;
+}
+
+RaysInFaces rays_in_faces(std::uint64_t rays, std::uint64_t seed) {
+    Pcg32 random(seed);
+    const auto on_grid = [&] { return glm::round(64.0f * random_vector(random)) / 64.0f; };
+    RaysInFaces result;
+    while (result.rays < rays) {
+        const Point3 a = on_grid(), b = on_grid(), c = on_grid();
+        Point3 origin = 4.0f * on_grid();
+        const std::uint32_t axis = random.below(3);
+        const Aabb box = bounds({a, b, c});
+        const Point3 vertex = a[axis] == box.max[axis] ? a : b[axis] == box.max[axis] ? b : c;
+        origin[axis] = vertex[axis];
+        const Ray ray{.origin = origin, .direction = vertex - origin};
+        if (!FilteredExact::intersect(ray, {a, b, c})) continue;  // no area, or seen edge-on
+        ++result.rays;
+        result.in_closed_box += exactly_hits(ray, box);
         for_each_named(box_tests, [&](std::size_t test, const auto& named) {
             result.rejected[test] += !TestOf<decltype(named)>::intersect(ray, box);
         });

@@ -80,6 +80,12 @@ struct RaysFromInside {
     std::uint64_t rays = 0;
     std::array<std::uint64_t, box_tests_measured> rejected{};
 };
+/// Rays in the plane of a face of a triangle's box that hit the triangle, in a vertex on that face.
+struct RaysInFaces {
+    std::uint64_t rays = 0;
+    std::uint64_t in_closed_box = 0;  ///< those that meet the closed box, in exact arithmetic
+    std::array<std::uint64_t, box_tests_measured> rejected{};
+};
 /// Turned boxes by the inverse ray.
 struct OrientedBoxes {
     std::uint64_t rays = 0, hits = 0;
@@ -141,7 +147,7 @@ struct TimedRoot {
 struct SceneTimes {
     std::string scene;
     std::vector<Timed> tests;    ///< in the order of triangle_tests
-    std::vector<Timed> lichter;  ///< "first", "fewer roots", "early exit", "improved"
+    std::vector<Timed> lichter;  ///< "first", those of lichter_variants.hpp, "improved"
 };
 
 /// The box tests, and the orders of one of them, on inputs of one predictability.
@@ -165,6 +171,7 @@ struct Measurements {
     std::vector<RootAccuracy> roots;  ///< in the order of root_forms()
     BoxAccuracy lattice, boxes;
     RaysFromInside from_inside;
+    RaysInFaces in_faces;
     OrientedBoxes oriented;
     std::vector<SphereAccuracy> spheres;
     SpheresBehind behind;

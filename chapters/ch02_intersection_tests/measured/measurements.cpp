@@ -73,6 +73,7 @@ void count_boxes(const Options& options, Measurements& measured) {
     measured.lattice = lattice_box_accuracy();
     measured.boxes = box_accuracy(sizes(options.amount()).boxes, options.seed, options.threads);
     measured.from_inside = rays_from_inside(sizes(options.amount()).spheres, options.seed);
+    measured.in_faces = rays_in_faces(sizes(options.amount()).spheres, options.seed);
     measured.oriented = oriented_box_accuracy(sizes(options.amount()).spheres, options.seed);
 }
 
