@@ -56,6 +56,16 @@ TEST_CASE("a shadow ray costs no more than the tests up to the first hit") {
     CHECK(tests_per_pixel(scene, 1, 1) == std::vector<std::uint64_t>{2 + 1});
 }
 
+TEST_CASE("a shadow ray ends at its light: the ceiling above a lamp costs a test and ends none") {
+    Scene scene;
+    scene.mesh = {
+        {{-90, -90, 6}, {90, -90, 6}, {0, 90, 6}, {-90, -90, 0}, {90, -90, 0}, {0, 90, 0}},
+        {{0, 1, 2}, {3, 4, 5}}};
+    scene.camera = {.eye = {4, 0, 4}, .target = {0, 0, 0}, .field_of_view = 1.0f};
+    scene.lights = {{.position = {0, 0, 4}}};
+    CHECK(tests_per_pixel(scene, 1, 1) == std::vector<std::uint64_t>{2 + 2});
+}
+
 TEST_CASE("the top left pixel comes first, and its row before the next") {
     Scene scene;  // a triangle that only the picture's top right quarter sees, lit from the front
     scene.mesh = {{{1, 1, 0}, {90, 1, 0}, {1, 90, 0}}, {{0, 1, 2}}};
