@@ -21,6 +21,17 @@ struct Error {
     explicit operator bool() const { return is <= allowed; }
 };
 
+/// A float or double that is printed as short as tells it from its neighbours: Catch2 prints a
+/// small one as 0.0f.
+template <class Real>
+struct Number {
+    Real value;
+
+    bool operator==(const Number&) const = default;
+};
+template <class Real>
+Number(Real) -> Number<Real>;
+
 }  // namespace space
 
 // Floats as short as tells them from their neighbours.
@@ -76,6 +87,13 @@ template <>
 struct StringMaker<std::optional<space::Hit>> {
     static std::string convert(const std::optional<space::Hit>& hit) {
         return hit ? Detail::stringify(*hit) : "no hit";
+    }
+};
+
+template <class Real>
+struct StringMaker<space::Number<Real>> {
+    static std::string convert(space::Number<Real> number) {
+        return fmt::format("{}", number.value);
     }
 };
 

@@ -45,10 +45,10 @@ TEST_CASE("however far, near or close together the hits are, the nearest wins") 
         const Triangle wide{{-1e35f, -1e35f, -depth}, {1e35f, -1e35f, -depth}, {0, 1e35f, -depth}};
         Triangle behind = wide;
         behind.a.z = behind.b.z = behind.c.z = std::nextafter(-depth, -infinity);
-        CAPTURE(depth);
+        CAPTURE(Number{depth});
         const auto seen = what_the_ray_sees(std::array{behind, wide, behind}, ahead);
         REQUIRE(seen);
-        REQUIRE(seen->t == depth);
+        REQUIRE(Number{seen->t} == Number{depth});
         REQUIRE(seen->triangle == 1);
     }
 }

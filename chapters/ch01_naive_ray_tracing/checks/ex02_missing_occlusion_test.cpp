@@ -19,14 +19,14 @@ const Point3 floor_point{0, 0, 0};
 
 TEST_CASE("a triangle between the point and the light keeps the light away") {
     for (const float height : {2.0f, 0.001f, 3.999f}) {
-        CAPTURE(height);
+        CAPTURE(Number{height});
         REQUIRE_FALSE(light_reaches(floor_point, lamp, std::array{at_height(height)}));
     }
 }
 
 TEST_CASE("a triangle keeps the light away however near it is to the point or to the light") {
     for (const float height : {4e-6f, 1e-20f, 4 - 4e-6f, std::nextafter(4.0f, 0.0f)}) {
-        CAPTURE(height);
+        CAPTURE(Number{height});
         REQUIRE_FALSE(light_reaches(floor_point, lamp, std::array{at_height(height)}));
     }
 }
@@ -51,14 +51,14 @@ TEST_CASE("triangles beside the way throw no shadow on the point") {
 
 TEST_CASE("a triangle beyond the light throws no shadow") {
     for (const float height : {5.0f, 4.001f, 4 + 4e-6f}) {
-        CAPTURE(height);
+        CAPTURE(Number{height});
         REQUIRE(light_reaches(floor_point, lamp, std::array{at_height(height)}));
     }
 }
 
 TEST_CASE("a triangle behind the point throws no shadow") {
     for (const float height : {-1.0f, -0.001f, -4e-6f}) {
-        CAPTURE(height);
+        CAPTURE(Number{height});
         REQUIRE(light_reaches(floor_point, lamp, std::array{at_height(height)}));
     }
 }
@@ -66,7 +66,7 @@ TEST_CASE("a triangle behind the point throws no shadow") {
 TEST_CASE("the light's distance does not matter") {
     for (const float height : {0.5f, 1.0f, 10.0f, 1000.0f}) {
         const PointLight light{.position = {0, 0, height}};
-        CAPTURE(height);
+        CAPTURE(Number{height});
         REQUIRE_FALSE(light_reaches(floor_point, light, std::array{at_height(0.75f * height)}));
         REQUIRE(light_reaches(floor_point, light, std::array{at_height(1.25f * height)}));
     }

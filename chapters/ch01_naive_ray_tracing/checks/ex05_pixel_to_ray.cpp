@@ -52,7 +52,7 @@ TEST_CASE("the points along each ray are seen in the centre of its pixel") {
             const Double3 point = Double3(ray.origin) + 7.0 * Double3(ray.direction);
             const Double3 seen = world_to_camera(camera, frame, point);
             const glm::dvec2 pixel = camera_to_pixel(frame, seen, 20, 12);
-            CAPTURE(x, y, ray, pixel, depth(seen));
+            CAPTURE(x, y, ray, pixel);
             REQUIRE(Error{std::abs(depth(seen) - 7.0), 1e-5});
             REQUIRE(Error{glm::distance(pixel, glm::dvec2(x + 0.5, y + 0.5)), 1e-4});
         }

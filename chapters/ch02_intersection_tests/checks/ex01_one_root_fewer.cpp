@@ -82,7 +82,7 @@ TEST_CASE("the weights are right to within eight roundings for normals of any le
         const Vector3 n = length * random_point(random, Aabb{{-1, -1, 1}, {1, 1, 2}});
         const float u = random.uniform(), v = random.uniform();
         const Counted result = counted(u * n, v * n, n);
-        CAPTURE(n, u, v, result.u, result.v);
+        CAPTURE(n, Number{u}, Number{v}, Number{result.u}, Number{result.v});
         REQUIRE(Error{std::abs(result.u - u), 8 * 0x1p-24f * u});
         REQUIRE(Error{std::abs(result.v - v), 8 * 0x1p-24f * v});
     }

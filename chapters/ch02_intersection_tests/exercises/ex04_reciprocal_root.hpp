@@ -3,16 +3,12 @@
 /// Difficulty 2 of 3, about 20 minutes.
 ///
 /// Newton's method for y = 1 / sqrt(a), a zero of f(y) = 1 / y^2 - a, needs no division: derive its
-/// step, and take as many rounds as the error allows. The stub returns the first guess, up to 3.5 %
-/// off. Wanted is a relative error of at most 2^-21 for every positive normal float; the exponent
-/// tells how many rounds that takes, and more are wasted: at most 12 multiplications. Real is
-/// float, or a number of the check's that counts what it does, cannot be divided and has no roots.
+/// step, and take as many rounds as the error allows. It begins with the chapter's guess, which is
+/// made from the bits of a and up to 3.5 % off. Wanted is a relative error of at most 2^-21 for
+/// every positive normal float; the exponent tells how many rounds that takes, and more are wasted:
+/// at most 12 multiplications. Real is a float of the check's that counts them; it can't be
+/// divided, and has no roots.
 #pragma once
-
-#include "common/geometry.hpp"
-
-#include <bit>
-#include <cstdint>
 
 namespace space {
 
@@ -22,10 +18,6 @@ Real refined(Real a, Real y) {
     // TODO: Newton's step for 1 / y^2 - a, and enough rounds of it
     static_cast<void>(a);
     return y;
-}
-
-inline float reciprocal_root(float a) {
-    return refined(a, std::bit_cast<float>(0x5F375A86u - (std::bit_cast<std::uint32_t>(a) >> 1)));
 }
 
 }  // namespace space

@@ -47,7 +47,7 @@ TEST_CASE("a square that the plane cuts from corner to corner lies across it") {
 
 TEST_CASE("a corner that is only just off the plane is off it") {
     for (const float off : {0x1p-10f, 0x1p-20f, 0x1p-30f, 0x1p-100f}) {
-        CAPTURE(off);
+        CAPTURE(Number{off});
         REQUIRE(classify(Polygon{{0, 0, off}, {4, 0, 0}, {0, 4, 0}}, floor_plane) ==
                 PlaneSide::front);
         REQUIRE(classify(Polygon{{0, 0, 0}, {4, 0, -off}, {0, 4, 0}}, floor_plane) ==
@@ -70,8 +70,8 @@ TEST_CASE("the plane's position and facing count") {
 }
 
 TEST_CASE("every sequence of corners in front, on and behind is classified by all of its corners") {
-    // x + 2y + 3z = 6, and a corner on each of its sides and on it.
-    const SplitPlane<3> plane({Point3(6, 0, 0), Point3(0, 3, 0), Point3(0, 0, 2)});
+    // 3x + 5y + 7z = 105, and a corner on each of its sides and on it.
+    const SplitPlane<3> plane({Point3(35, 0, 0), Point3(0, 21, 0), Point3(0, 0, 15)});
     int cases = 0;
     for (int count = 3, sequences = 27; count <= 5; ++count, sequences *= 3)
         for (int sequence = 0; sequence < sequences; ++sequence) {
@@ -80,7 +80,7 @@ TEST_CASE("every sequence of corners in front, on and behind is classified by al
             for (int i = 0, rest = sequence; i < count; ++i, rest /= 3) {
                 const int side = rest % 3;  // 0 behind, 1 on, 2 in front
                 seen[static_cast<std::size_t>(side)] = true;
-                polygon.push_back({6 - 2 * i + side - 1, i, 0});
+                polygon.push_back({35 - 5 * i + side - 1, 3 * i, 0});
             }
             const PlaneSide expected = seen[0] && seen[2] ? PlaneSide::straddling
                                        : seen[2]          ? PlaneSide::front

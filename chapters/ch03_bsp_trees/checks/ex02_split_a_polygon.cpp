@@ -110,7 +110,7 @@ TEST_CASE("a corner that is only just behind the plane is behind it") {
     for (const float off : {0x1p-10f, 0x1p-15f, 0x1p-20f}) {
         // The edges to the corner pass the wall at 1 / (1 + off) of their lengths.
         const Pieces pieces = split(Polygon{{1, 0, 0}, {1, 4, 0}, {-off, 2, 0}}, wall);
-        CAPTURE(off, pieces.front, pieces.back);
+        CAPTURE(Number{off}, pieces.front, pieces.back);
         REQUIRE(pieces.front.size() == 4);
         REQUIRE(pieces.back.size() == 3);
     }

@@ -142,7 +142,8 @@ TEST_CASE("an eye on the plane of a node loses nothing") {
     }
 }
 
-TEST_CASE("random segments are in order from a thousand eyes, on planes and off them") {
+TEST_CASE(
+    "random segments are in order from a thousand eyes, on planes, off them and nearly on them") {
     Pcg32 random(34);
     const auto place = [&] { return static_cast<float>(random.below(33)) - 16.0f; };
     std::vector<Segment> segments;
@@ -153,7 +154,9 @@ TEST_CASE("random segments are in order from a thousand eyes, on planes and off 
     const Tree tree = tree_of(segments);
     CHECK(tree.fragments.size() > 100);
     for (int i = 0; i < 1000; ++i) {
-        const Point2 eye = i % 2 ? Point2{place(), place()} : segments[random.below(60)].a;
+        Point2 eye = segments[random.below(60)].a;
+        if (i % 3 == 0) eye = {place(), place()};
+        if (i % 3 == 1) eye += 0x1p-18f * Point2(1, -1);  // only just off it
         CAPTURE(eye);
         REQUIRE(faults(tree, eye, painters_order(tree, eye)) == Faults{});
     }
