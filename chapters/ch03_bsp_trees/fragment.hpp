@@ -29,6 +29,7 @@ enum class PlaneSide { front, back, coplanar, straddling };
 /// A convex piece of an input polygon: corners in the polygon's order, in its plane.
 template <int D>
 struct Fragment {
+    /// A corner and what the edges at it lie on.
     struct Corner {
         Double<D> at;                         ///< exact, or within `error` of the exact corner
         double error = 0.0;                   ///< 0 for a corner of the polygon itself

@@ -9,6 +9,7 @@
 
 namespace space::mesh_reader {
 
+/// A file as a reader sees it: its content, and how to say what is wrong where.
 struct Source {
     std::string name;
     std::string content;

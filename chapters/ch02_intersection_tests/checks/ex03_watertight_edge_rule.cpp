@@ -84,7 +84,8 @@ TEST_CASE("what is inside is owned and what is outside is not, in thin triangles
         if (area(a, b, c) < 0) std::swap(a, b);
         // Near the middle of a side, a step or none off it.
         Point2 point = glm::floor(0.5f * (a + b));
-        point += Point2(random.below(3), random.below(3)) - Point2(1);
+        const auto right = random.below(3), up = random.below(3);
+        point += Point2(right, up) - Point2(1);
         const double least = std::min({area(a, b, point), area(b, c, point), area(c, a, point)});
         if (least == 0) continue;
         CAPTURE(a, b, c, point);
