@@ -138,13 +138,17 @@ std::string page_title(const fs::path& file) {
     return match[1].str();
 }
 
-/// The .dox files of a chapter beside its chapter.dox, by name.
+/// The .dox files of a chapter beside its chapter.dox, in the order in which that names their
+/// pages.
 std::vector<fs::path> further_pages(const Places& places, const Chapter& chapter) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(places.root / "chapters" / chapter.folder))
         if (entry.path().extension() == ".dox" && entry.path().filename() != "chapter.dox")
             files.push_back(entry.path());
-    std::ranges::sort(files);
+    const std::string text = read_file(places.root / "chapters" / chapter.folder / "chapter.dox");
+    std::ranges::sort(files, {}, [&](const fs::path& file) {
+        return std::pair(text.find("\\ref " + *page_id(file)), file);
+    });
     return files;
 }
 
