@@ -1,5 +1,7 @@
 // CGAL's assertions would be timed.
 #define CGAL_NDEBUG 1
+// CGAL 6 calls these headers AABB_..._3.h and warns of their old names, the ones that both have.
+#define CGAL_NO_DEPRECATION_WARNINGS 1
 #include "chapters/ch12_comparison/peers/peers.hpp"
 
 #include <CGAL/AABB_traits.h>
