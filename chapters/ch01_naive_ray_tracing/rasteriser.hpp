@@ -49,9 +49,9 @@ inline constexpr double near_fraction = 0x1p-10;
 /// How far, in pixels, the centre of a pixel may lie from a projected edge where the two renderers
 /// decide differently. Three roundings move an edge:
 /// - of the vertices to subpixels: by up to half of one in x and in y, that is sqrt(1/2) subpixels;
-/// - of the ray's direction d to float: by up to e |d|, e = 2^-24. With r the distance from the
+/// - of the ray's direction d to float: by up to u24 |d|, u24 = 2^-24. With r the distance from the
 /// picture's centre to a
-///   corner on the image plane, |d| <= 1 + r, and the ray moves on that plane by at most e (1 +
+///   corner on the image plane, |d| <= 1 + r, and the ray moves on that plane by at most u24 (1 +
 ///   r)^2;
 /// - of the double arithmetic in both: by less than 2^-20 pixels, for edges that do not point at
 /// the eye to within 10^-6.

@@ -130,21 +130,22 @@ struct SlabSafe {
 /// large: SlabSafe with two reciprocals, one a little short of 1 / d for the near planes, one a
 /// little beyond it for the far planes.
 ///
-/// A computed t carries four roundings, each by a factor of 1 +- w, w = 2^-24: the difference, the
-/// reciprocal, its shortening (or lengthening) and the product. (1 + w)^4 (1 - 4 w) < 1 < (1 - w)^4
-/// (1 + 6 w), so the computed t is never farther from 0 than the exact one at a near plane, and
-/// never nearer at a far plane. (The float before 1 + 6 w is 1 + 4 w. It would do, but only because
-/// no reciprocal is rounded down by all of w.) That is the safe side for t >= 0; where the exact t
-/// is negative the computed one is, too, and either counts as little as the other as long as tmin
+/// A computed t carries four roundings, each by a factor of 1 +- u24, u24 = 2^-24: the difference,
+/// the reciprocal, its shortening (or lengthening) and the product. (1 + u24)^4 (1 - 4 u24) < 1 <
+/// (1 - u24)^4 (1 + 6 u24), so the computed t is never farther from 0 than the exact one at a near
+/// plane, and never nearer at a far plane. (The float before 1 + 6 u24 is 1 + 4 u24. It would do,
+/// but only because no reciprocal is rounded down by all of u24.) That is the safe side for t >= 0;
+/// where the exact t is negative the computed one is, too, and either counts as little as the other
+/// as long as tmin
 /// >= 0. A product below 2^-126 is off by half the smallest float more; `tiny` covers that at both
 /// ends. Rays with tmin < 0 or with a reciprocal that is not a normal float, |d| < 2^-128 or |d| >
 /// 2^126, take the double path, where none of this matters. Coordinates are at most 2^126, so that
 /// no difference overflows.
 ///
 /// Ize 2013 (JCGT 2:2) widens at one end only, `far` by a factor for both. The code that follows it
-/// takes 1.00000024, which is 1 + 4 w: too little, a test has the ray. 1 + 6 w is enough: with
-/// three roundings in each, near and far are apart by at most (1 + 2 w)^3 < 1 + 6 w + 13 w^2, and
-/// the product with the factor, rounded to a float, cannot end below the float `near` for that.
+/// takes 1.00000024, which is 1 + 4 u24: too little, a test has the ray. 1 + 6 u24 is enough: with
+/// three roundings in each, near and far are apart by at most (1 + 2 u24)^3 < 1 + 6 u24 + 13 u24^2,
+/// and the product with the factor, rounded to a float, cannot end below the float `near` for that.
 struct SlabConservative {
     static constexpr float shorten = 1.0f - 4.0f * 0x1p-24f;
     static constexpr float lengthen = 1.0f + 6.0f * 0x1p-24f;

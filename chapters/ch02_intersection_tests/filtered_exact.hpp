@@ -65,15 +65,15 @@ struct FilteredExact {
     }
     /// Above the error of outside(u, det) and of outside(v, det - u).
     ///
-    /// With w = 2^-53 and gamma(n) = n w / (1 - n w): each volume is a sum of products of three
-    /// vectors' components. A computed term of det, u and v carries seven roundings, two
+    /// With u53 = 2^-53 and gamma(n) = n u53 / (1 - n u53): each volume is a sum of products of
+    /// three vectors' components. A computed term of det, u and v carries seven roundings, two
     /// differences (the direction is none), two products, three sums; so a volume is off by at most
     /// gamma(7) times the sum of its terms' sizes, which is at most |d||e1||e2| in det, |d||e2||s|
     /// in u and |d||e1||s| in v. `outside` passes on the errors of x and of end; the roundings of
-    /// det - u, of x - half and of the last difference add w |det - u|, w |x - half| and w |x|. All
-    /// in all at most 9 w |d| (|e1||e2| + (|e1| + |e2|) |s|) and terms with w^2; the tenth is far
-    /// more than those and the rounding of the bound itself take. Nothing under- or overflows:
-    /// products of three floats and of the bound stay within 2^-510 .. 2^400.
+    /// det - u, of x - half and of the last difference add u53 |det - u|, u53 |x - half| and u53
+    /// |x|. All in all at most 9 u53 |d| (|e1||e2| + (|e1| + |e2|) |s|) and terms with u53^2; the
+    /// tenth is far more than those and the rounding of the bound itself take. Nothing under- or
+    /// overflows: products of three floats and of the bound stay within 2^-510 .. 2^400.
     static double outside_bound(const Sizes& size) {
         return 10.0 * 0x1p-53 * size.d * (size.e1 * size.e2 + (size.e1 + size.e2) * size.s);
     }
@@ -82,10 +82,11 @@ struct FilteredExact {
     /// With T and D exact, T' and det computed, |T / D - T' / det| <= (|T' - T| + |T' / det|
     /// |det - D|) / |D|. T' has eight roundings: |T' - T| <= gamma(8) |e1||e2||s|, and |det - D| <=
     /// gamma(7) |d||e1||e2|. Where outside(u, det) < -bound, half of |det| is above the bound, so
-    /// |D| > 13/20 |det|: at most 12.4 w |e1||e2||s| / |det| and 10.8 w |t||d||e1||e2| / |det|. The
-    /// roundings of the reciprocal, of t and of t - slack add 3 w |t|, and |det| <= |d||e1||e2| but
-    /// for roundings: 13.8 w of the second. `inverse` is 1 / det. A slack that overflows passes the
-    /// ray on; one that underflows stands beside a t far below the smallest float.
+    /// |D| > 13/20 |det|: at most 12.4 u53 |e1||e2||s| / |det| and 10.8 u53 |t||d||e1||e2| / |det|.
+    /// The roundings of the reciprocal, of t and of t - slack add 3 u53 |t|, and |det| <=
+    /// |d||e1||e2| but for roundings: 13.8 u53 of the second. `inverse` is 1 / det. A slack that
+    /// overflows passes the ray on; one that underflows stands beside a t far below the smallest
+    /// float.
     // [t_bound]
     static double t_bound(const Sizes& size, double t, double inverse) {
         return 14.0 * 0x1p-53 * size.e1 * size.e2 * (size.s + std::abs(t) * size.d) *

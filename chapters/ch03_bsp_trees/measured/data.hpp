@@ -32,11 +32,15 @@ struct TreePoint {
     std::uint64_t polygons = 0, nodes = 0, fragments = 0, depth = 0;
     std::uint64_t most_pieces = 0;  ///< that one polygon has, or subtrees that it is in
     std::uint64_t placed = 0;       ///< fragments placed in front of, behind or on a node's plane
+    /// Placed where no side of the node's plane got more than two thirds of the set.
+    std::uint64_t placed_balanced = 0;
+    std::uint64_t lookups = 0, lookup_nodes = 0;  ///< of points of the scene's box, from the root
     std::uint64_t rays = 0, nodes_visited = 0, triangles_tested = 0;
     std::uint64_t wrong = 0;  ///< rays with another answer than the naive loop's
     double build_ms = 0.0;
 
     double per_polygon() const { return double(fragments) / double(polygons); }
+    double nodes_per_lookup() const { return double(lookup_nodes) / double(lookups); }
     double nodes_per_ray() const { return double(nodes_visited) / double(rays); }
     double tests_per_ray() const { return double(triangles_tested) / double(rays); }
 };
@@ -106,6 +110,17 @@ struct GradePoint {
     }
 };
 
+/// What Algorithm 2 does as it is printed.
+struct PrintedTree {
+    std::string scene;
+    std::uint64_t polygons = 0;
+    std::uint64_t splitters = 0;         ///< chosen
+    std::uint64_t stored = 0;            ///< of them, those that the tree holds in the end
+    std::uint64_t missing_children = 0;  ///< gone down to, and never made
+    std::uint64_t coplanar = 0;  ///< polygons in a splitter's plane, which no set takes; the
+                                 ///< splitters themselves left out
+};
+
 /// All of it. With --counts every time is 0 or no number.
 struct Measurements {
     Pictures pictures;
@@ -114,6 +129,7 @@ struct Measurements {
     std::vector<Growth> growth;
     std::vector<Crossings> crossings;
     std::vector<GradePoint> grades;
+    std::vector<PrintedTree> printed = {};
 };
 /// Rays with another answer than the naive loop's, planes crossed by rays that stay on one side,
 /// and what the exact grade must not have: lost area, cracks, slipped rays.

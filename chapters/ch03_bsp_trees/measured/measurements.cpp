@@ -17,13 +17,41 @@
 namespace space::ch03 {
 namespace {
 
-/// Counts what goes where; what is chosen and cut does not matter.
+/// Counts what goes where, node by node.
 struct PlacedCounter : NoObserver {
-    std::uint64_t count = 0;
+    std::uint64_t count = 0, balanced = 0;
 
     using NoObserver::observe;
-    void observe(const BspBuilder<3>::Placed&) { ++count; }
+    void observe(const BspBuilder<3>::Chosen&) { end_of_node(); }
+    void observe(const BspBuilder<3>::Placed& placed) {
+        ++count;
+        ++set_;
+        front_ += placed.side == PlaneSide::front || placed.side == PlaneSide::straddling;
+        back_ += placed.side == PlaneSide::back || placed.side == PlaneSide::straddling;
+    }
+    void end_of_node() {
+        if (3 * std::max(front_, back_) <= 2 * set_) balanced += set_;
+        set_ = front_ = back_ = 0;
+    }
+
+  private:
+    std::uint64_t set_ = 0, front_ = 0, back_ = 0;
 };
+
+/// How many nodes a look-up of a point visits: as BspTree::locate does.
+std::uint64_t nodes_of_lookup(const BspTree<3>& tree, const Point3& point) {
+    std::uint64_t visited = 0;
+    std::vector<std::uint32_t> to_visit{0};
+    while (!to_visit.empty()) {
+        const BspTree<3>::Node& node = tree.nodes[to_visit.back()];
+        to_visit.pop_back();
+        ++visited;
+        const int side = tree.side_of(point, node);
+        if (side >= 0 && node.front != tree.none) to_visit.push_back(node.front);
+        if (side <= 0 && node.back != tree.none) to_visit.push_back(node.back);
+    }
+    return visited;
+}
 
 }  // namespace
 
@@ -94,7 +122,13 @@ TreePoint measure_tree(const TreeTask& task, const Method& method, std::size_t m
     point.nodes = bsp.tree().nodes.size();
     point.fragments = bsp.tree().fragments.size();
     point.depth = bsp.tree().depth();
+    counter.end_of_node();
     point.placed = counter.count;
+    point.placed_balanced = counter.balanced;
+    for (const Ray& ray : task.rays) {
+        ++point.lookups;
+        point.lookup_nodes += nodes_of_lookup(bsp.tree(), ray.at(1.0f));
+    }
 
     std::vector<std::uint64_t> pieces(task.triangles.size());
     for (const Fragment<3>& fragment : bsp.tree().fragments)

@@ -74,5 +74,7 @@ std::vector<TreePoint> measure_scenes(const Options& options);
 std::vector<Growth> measure_growth(const Options& options);
 std::vector<Crossings> measure_crossings(const Options& options);
 std::vector<GradePoint> measure_grades(const Options& options);
+/// Algorithm 2 as printed, on three scenes.
+std::vector<PrintedTree> build_as_printed(const Options& options);
 
 }  // namespace space::ch03
