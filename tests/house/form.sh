@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# form.sh ROOT CLANG_FORMAT: proves that each C++ file is as clang-format 14 leaves it (the empty string: there is none),
-# that no line is longer than 100 characters, which clang-format cannot promise, and no function of the book longer than
-# 60 lines (in tests/ it may be: a list of cases). What a reader writes into an exercise is the reader's. Prints each fault; fails if there are any.
+# form.sh ROOT [CLANG_FORMAT]: proves that each C++ file is as clang-format 14 leaves it (where there is one), that no line
+# is longer than 100 characters, which clang-format cannot promise, and no function of the book longer than 60 lines (in
+# tests/ it may be: a list of cases). What a reader writes into an exercise is the reader's. Prints each fault; fails if
+# there are any.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cd "$1"
@@ -29,7 +30,7 @@ awk '
         first[column] = first[4] = 0
     }
     END { exit faults }' "${files[@]}" || { echo 'longer than 60 lines' && faults=1; }
-if [[ -n $2 ]]; then
+if [[ -n ${2:-} ]]; then
     "$2" --dry-run -Werror "${files[@]}" || { echo "run $2 -i on these" && faults=1; }
 fi
 exit $faults
