@@ -200,8 +200,8 @@ void quote_growth(const std::vector<Growth>& growth, Numbers& numbers) {
     numbers.count("pieces_from_n", least_n);
     numbers.count("pieces_to_n", most_n);
 
-    const TreePoint& chain = quote_last(growth, "icosphere", "weighted", "chain", numbers);
-    const TreePoint& cured = quote_last(growth, "icosphere", "free", "cured", numbers);
+    const TreePoint chain = quote_last(growth, "icosphere", "weighted", "chain", numbers);
+    const TreePoint cured = quote_last(growth, "icosphere", "free", "cured", numbers);
     const auto placed = slope(growth_of(growth, "icosphere", "weighted"),
                               [](const TreePoint& p) { return double(p.placed); });
     numbers.count("chain_slope", placed.value_or(0.0), fixed(placed.value_or(0.0), 2));
