@@ -213,7 +213,10 @@ std::string exercises_page(const std::vector<Chapter>& chapters,
         "- `./book exercise hint 1.1` gives the first hint, then the second, then the third;\n"
         "- `./book exercise solution 1.1` shows a solution;\n"
         "- `./book exercise reset 1.1` puts the untouched file back.\n\n"
-        "Checks count and compare; none of them measures time.\n\n";
+        "Checks count and compare; none of them measures time. A check stops what runs for more "
+        "than a minute, takes more than 2 GB of memory or prints more than 10 MB. Each chapter "
+        "also has problems for paper, a measurement to predict and a project, at its end; notes "
+        "for teachers and answers to these are in the folder `docs/teachers`.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(exercises, chapter.folder, &Exercise::chapter) == 0) continue;
         text += fmt::format("\\section exercises_{} Chapter {}: {}\n\n", chapter.folder,

@@ -85,6 +85,17 @@ TEST_CASE("points far from the origin turn as they do in exact arithmetic") {
     }
 }
 
+TEST_CASE("a point close to the origin and two far ones turn as they do in exact arithmetic") {
+    // A double loses what the small numbers add to the large ones.
+    Pcg32 random(29);
+    for (int i = 0; i < 20'000; ++i) {
+        const Point2 a = std::ldexp(1.0f, -static_cast<int>(20 + random.below(40))) *
+                         random_point(random, Aabb2{Point2(-1), Point2(1)});
+        const Point2 b = random_point(random, Aabb2{Point2(1), Point2(2)});
+        check(a, b, 2.0f * b);
+    }
+}
+
 TEST_CASE("random points ask for nothing, or nearly so") {
     Pcg32 random(28);
     const Aabb2 square{Point2(-1), Point2(1)};

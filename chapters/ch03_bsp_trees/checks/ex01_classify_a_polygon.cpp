@@ -70,8 +70,11 @@ TEST_CASE("the plane's position and facing count") {
 }
 
 TEST_CASE("every sequence of corners in front, on and behind is classified by all of its corners") {
-    // 3x + 5y + 7z = 105, and a corner on each of its sides and on it.
-    const SplitPlane<3> plane({Point3(35, 0, 0), Point3(0, 21, 0), Point3(0, 0, 15)});
+    // ax + by + cz = abc, and a corner on each of its sides and on it; a, b, c without a common
+    // factor.
+    const auto [a, b, c] = GENERATE(std::array{3, 5, 7}, std::array{7, 11, 13}, std::array{1, 9, 2},
+                                    std::array{17, 3, 10});
+    const SplitPlane<3> plane({Point3(b * c, 0, 0), Point3(0, a * c, 0), Point3(0, 0, a * b)});
     int cases = 0;
     for (int count = 3, sequences = 27; count <= 5; ++count, sequences *= 3)
         for (int sequence = 0; sequence < sequences; ++sequence) {
@@ -80,7 +83,7 @@ TEST_CASE("every sequence of corners in front, on and behind is classified by al
             for (int i = 0, rest = sequence; i < count; ++i, rest /= 3) {
                 const int side = rest % 3;  // 0 behind, 1 on, 2 in front
                 seen[static_cast<std::size_t>(side)] = true;
-                polygon.push_back({35 - 5 * i + side - 1, 3 * i, 0});
+                polygon.push_back({b * c - b * i + side - 1, a * i, 0});
             }
             const PlaneSide expected = seen[0] && seen[2] ? PlaneSide::straddling
                                        : seen[2]          ? PlaneSide::front

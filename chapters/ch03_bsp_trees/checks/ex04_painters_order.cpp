@@ -162,9 +162,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a tree of 100,000 levels is painted without recursion") {
-    const Tree tree = chain(100'000);
-    for (const float x : {-1.0f, 0.0f, 50'000.5f, 99'999.0f, 200'000.0f}) {
+TEST_CASE("a tree of 400,000 levels is painted without recursion") {
+    const Tree tree = chain(400'000);
+    for (const float x : {-1.0f, 0.0f, 50'000.5f, 399'999.0f, 800'000.0f}) {
         const Point2 eye(x, 0.5f);
         CAPTURE(eye);
         REQUIRE(faults(tree, eye, painters_order(tree, eye)) == Faults{});

@@ -6,7 +6,7 @@
 /// as seen from the eye: seen from it, what lies beyond a node's plane can't cover what lies in
 /// the plane, nor that what lies on the eye's own side. Where the eye is on the plane, either side
 /// may come first, but none may be left out. Do it without BspTree::back_to_front, and without
-/// recursion: the checks' deepest tree has 100,000 levels. They look at every node of trees over
+/// recursion: the checks' deepest tree has 400,000 levels. They look at every node of trees over
 /// random segments, from eyes on all sides, and count the nodes whose fragments come in a wrong
 /// order.
 ///

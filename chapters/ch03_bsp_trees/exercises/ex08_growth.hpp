@@ -5,9 +5,8 @@
 /// A BSP tree costs more than its polygons: cuts make more of them, and a bad order makes it deep.
 /// Compute what Growth asks for from a tree that was made by cutting. Every polygon of the tree has
 /// at least one fragment, and fragment.polygon tells whose it is; several fragments may lie in one
-/// node. A node stands before its children in tree.nodes, so that one pass will do, without
-/// recursion, for 100,000 levels as well. Do it without BspTree::depth. For no nodes all numbers
-/// are 0.
+/// node. A node stands before its children in tree.nodes, so that one pass will do, for a tree of
+/// 400,000 levels as well. Do it without BspTree::depth. For no nodes all numbers are 0.
 #pragma once
 
 #include "chapters/ch03_bsp_trees/bsp_tree.hpp"
