@@ -70,6 +70,30 @@ function search() {
   if (!found.length) results.append("Nothing in the book has all of these words.");
 }
 
+// Calls `begin` before a page is printed and `end` after it, once each: browsers differ in which event they send.
+function whenPrinting(begin, end) {
+  let printing = false;
+  const change = (now) => {
+    if (now === printing) return;
+    printing = now;
+    (now ? begin : end)();
+  };
+  window.addEventListener("beforeprint", () => change(true));
+  window.addEventListener("afterprint", () => change(false));
+  window.matchMedia("print").addEventListener("change", (event) => change(event.matches));
+}
+
+// ./book print names the number of a page's first sheet: page.html?sheet=41.
+const sheet = Number(new URLSearchParams(location.search).get("sheet"));
+if (sheet > 0) document.documentElement.style.counterReset = `page ${sheet - 1}`;
+
+// Paper is white, whatever the reader's screen is: page, formulas and drawings are printed in their light colours.
+let darkBefore = false;
+whenPrinting(() => {
+  darkBefore = document.documentElement.classList.contains("dark-mode");
+  DoxygenAwesomeDarkModeToggle.enableDarkMode(false);
+}, () => DoxygenAwesomeDarkModeToggle.enableDarkMode(darkBefore));
+
 // A drawing with steps (Svg::begin_step): its list of steps shows one at a time, with the groups of that step.
 function stepThrough(list) {
   const drawing = list.previousElementSibling, items = [...list.children], last = items.length - 1;
@@ -106,6 +130,8 @@ function stepThrough(list) {
   list.setAttribute("aria-live", "polite");
   list.classList.add("one-at-a-time");
   show(0);
+  let before = 0;  // on paper all sentences stand under the last step's picture
+  whenPrinting(() => { before = now; show(last); }, () => show(before));
   document.addEventListener("keydown", (event) => {
     const moves = { ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last };
     if (!(event.key in moves) || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;

@@ -3,10 +3,14 @@
 
 # Prints the lines of packages.txt that belong to the named parts, without comments.
 package_lines() {
-    local package part rest
+    local package part rest wanted
     while read -r package part rest; do
         [[ $package == \#* || -z $package ]] && continue
-        [[ " $* " == *" $part "* ]] && printf '%s %s %s\n' "$package" "$part" "$rest"
+        for wanted; do
+            [[ ,$part, == *,$wanted,* ]] || continue
+            printf '%s %s %s\n' "$package" "$part" "$rest"
+            break
+        done
     done <"$root/common/scripts/packages.txt"
     return 0
 }
@@ -106,15 +110,15 @@ doctor() {
     for preset in release debug asan tsan; do
         [[ -f $root/build/$preset/build.ninja ]] && printf 'built     %s\n' "build/$preset"
     done
-    printf '\n%-20s %-8s %-28s %s\n' package part version 'what for'
+    printf '\n%-20s %-10s %-28s %s\n' package part version 'what for'
     while read -r package part probe purpose; do
         version=$(dpkg-query -W -f '${Version}' "$package" 2>/dev/null || true)
         if ! is_there "$probe"; then
             version=MISSING
             [[ $part == build && $package != ccache ]] && wrong=1
         fi
-        printf '%-20s %-8s %-28s %s\n' "$package" "$part" "${version:-there, not from a package}" "$purpose"
-    done < <(package_lines build run test bench lab extra)
+        printf '%-20s %-10s %-28s %s\n' "$package" "$part" "${version:-there, not from a package}" "$purpose"
+    done < <(package_lines build run print test bench lab extra)
     echo
     echo 'build: required; the others: what needs them is left out where they are missing.'
     ((wrong == 0)) || die 3 "something required is missing: ./book run installs it"
