@@ -299,7 +299,7 @@ TEST_CASE(
         for (const bool at_near : {true, false}) {
             float best[3] = {-number(), number(), number()};
             double most = at_near ? -10.0 : 10.0;
-            for (int step = 0; step < pairs_each / 8; ++step) {
+            for (int step = 0; step < 2'500; ++step) {
                 float next[3] = {best[0], best[1], best[2]};
                 float& x = next[random.below(3)];
                 const float size = random.uniform(-1.0f, 1.0f);
