@@ -89,8 +89,8 @@ TEST_CASE("a point close to the origin and two far ones turn as they do in exact
     // A double loses what the small numbers add to the large ones.
     Pcg32 random(29);
     for (int i = 0; i < 20'000; ++i) {
-        const Point2 a = std::ldexp(1.0f, -static_cast<int>(20 + random.below(40))) *
-                         random_point(random, Aabb2{Point2(-1), Point2(1)});
+        const float scale = std::ldexp(1.0f, -static_cast<int>(20 + random.below(40)));
+        const Point2 a = scale * random_point(random, Aabb2{Point2(-1), Point2(1)});
         const Point2 b = random_point(random, Aabb2{Point2(1), Point2(2)});
         check(a, b, 2.0f * b);
     }
