@@ -131,12 +131,16 @@ const space::Chapter space::this_chapter{\"${chapter}\", {}};
     set_target_properties(${short}_tables PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
     if(EXISTS ${dir}/measured/benchmarks.cpp AND benchmark_FOUND)
-        add_executable(${short}_benchmarks EXCLUDE_FROM_ALL ${dir}/measured/benchmarks.cpp)
+        add_executable(${short}_benchmarks ${dir}/measured/benchmarks.cpp)
+        if(BOOK_SANITIZE)  # elsewhere they are compiled with everything, so that none breaks unseen
+            set_target_properties(${short}_benchmarks PROPERTIES EXCLUDE_FROM_ALL ON)
+        endif()
         target_link_libraries(${short}_benchmarks PRIVATE ${libraries} book_flags benchmark::benchmark_main)
         set_target_properties(${short}_benchmarks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
         add_dependencies(benchmarks ${short}_benchmarks)
     endif()
-    if(EXISTS ${dir}/measured/expected_small.txt)
+    file(GLOB expected CONFIGURE_DEPENDS ${dir}/measured/expected_small.txt)  # once it is there, the next build sees it
+    if(expected)
         add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}>
                  -D EXPECTED=${dir}/measured/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${chapter}
                  -P ${PROJECT_SOURCE_DIR}/tests/house/compare_small.cmake)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # chapters_are_whole.sh ROOT: proves that each chapter has what its tests hang on, so that none is left out in silence: a
-# CMakeLists.txt with add_chapter and, once it has a program, its text, the expected output of --small, tests, and a line
-# in the lists of chapters. Prints each fault; fails if there are any.
+# CMakeLists.txt with add_chapter and, once it has a program, its text, the expected output of --small, what a full run
+# counted, tests, and a line in the lists of chapters; and that the lab offers what has a file among its structures.
+# Prints each fault; fails if there are any.
 set -euo pipefail
 cd "$1"
 faults=0
@@ -15,9 +16,18 @@ for folder in chapters/*/; do
     for file in README.md chapter.dox measured/expected_small.txt; do
         [[ -s $folder/$file ]] || fault "$folder/$file: missing or empty"
     done
-    grep -qsw -- "${chapter%%_*}" tests/*/CMakeLists.txt || grep -qs -- "${chapter%%_*}_" tests/*/CMakeLists.txt ||
+    numbers=figures/measured/${chapter%%_*}_numbers.json
+    [[ -s $numbers ]] || fault "$numbers: missing: ./book run $((10#${chapter:2:2})) --update makes it"
+    # A line that is commented out does not count.
+    grep -qsE "^[^#]*\b${chapter%%_*}(\b|_)" tests/*/CMakeLists.txt ||
         fault "tests/${chapter%%_*}/CMakeLists.txt: no test of the chapter"
     grep -qF "\"$chapter\"" docs/chapters.json || fault "docs/chapters.json: no $chapter"
     grep -qF "(chapters/$chapter)" README.md || fault "README.md: no link to chapters/$chapter"
+done
+for file in chapters/ch12_comparison/structures/ch*.cpp; do
+    [[ -f $file ]] || continue
+    name=$(basename "$file" .cpp)_structures
+    grep -qsE "^[^/]*\{.*\b$name\(\)" chapters/ch12_comparison/structures.cpp ||
+        fault "chapters/ch12_comparison/structures.cpp: $name() is not among the lab's structures"
 done
 exit $faults

@@ -8,12 +8,17 @@ failures=0
 
 make_tree() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{chapters/ch04_a/measured,tests/ch04,docs}
+    mkdir -p "$tree"/{chapters/ch04_a/measured,chapters/ch12_comparison/structures,figures/measured,tests/ch04,docs}
     echo 'add_chapter()' >"$tree/chapters/ch04_a/CMakeLists.txt"
     for file in main.cpp README.md chapter.dox measured/expected_small.txt; do echo a >"$tree/chapters/ch04_a/$file"; done
     echo 'add_book_test(ch04.a SOURCES a_test.cpp)' >"$tree/tests/ch04/CMakeLists.txt"
     echo '{"folder": "ch04_a"}' >"$tree/docs/chapters.json"
     echo '[a](chapters/ch04_a)' >"$tree/README.md"
+    echo '{}' >"$tree/figures/measured/ch04_numbers.json"
+    echo 'add_chapter()' >"$tree/chapters/ch12_comparison/CMakeLists.txt"
+    echo a >"$tree/chapters/ch12_comparison/structures/ch04.cpp"
+    printf '%s\n' 'std::vector<Structure> ch04_structures();' '    {"chapter 4", ch04_structures()},' \
+        >"$tree/chapters/ch12_comparison/structures.cpp"
 }
 check() { bash "$here/chapters_are_whole.sh" "$tree" >"$tree/said.txt"; }
 # finds FAULT COMMAND: after the command, run in the tree, the fault is told
@@ -32,7 +37,11 @@ finds 'not named' 'mkdir chapters/kd'
 finds 'without add_chapter' 'rm chapters/ch04_a/CMakeLists.txt'
 finds 'chapter.dox: missing' 'rm chapters/ch04_a/chapter.dox'
 finds 'expected_small.txt: missing' 'rm chapters/ch04_a/measured/expected_small.txt'
+finds 'ch04_numbers.json: missing: ./book run 4 --update' 'rm figures/measured/ch04_numbers.json'
 finds 'no test of' 'echo "add_book_test(ch03.a)" >tests/ch04/CMakeLists.txt'
+finds 'no test of' 'sed -i "s/^/# /" tests/ch04/CMakeLists.txt'
+finds "not among the lab's structures" 'sed -i /{/d chapters/ch12_comparison/structures.cpp'
+finds "not among the lab's structures" 'sed -i "s,{,// {," chapters/ch12_comparison/structures.cpp'
 finds 'chapters.json: no' 'echo >docs/chapters.json'
 finds 'README.md: no link' 'echo >README.md'
 exit $failures

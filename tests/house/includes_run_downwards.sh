@@ -3,7 +3,8 @@
 # - a chapter includes common/, itself and the chapters that it builds on (directly or through another), which are
 #   earlier ones; CHAPTERS has a line for each chapter: its name, then those named by BUILDS_ON;
 # - within a chapter arrows run main -> figures -> measured -> subject: the subject includes neither figures/ nor
-#   measured/, measured/ includes no figures/, and those of another chapter are closed;
+#   measured/, measured/ includes no figures/, and those of another chapter are closed; measured/data.hpp includes no
+#   subject, so that a change of the structure does not compile what only reads the plain values;
 # - common/ includes no chapter; neither includes tests/ or docs/ (checks of exercises may include tests/);
 # - our headers are included by their path from the root, but those beside the including file in docs/ and tests/;
 # - CGAL is used by the tests, by the one reader of mesh files and by the lab's peers, which nothing else includes.
@@ -49,7 +50,10 @@ find common chapters tests docs -name '*.[hc]pp' -print0 2>/dev/null | sort -z |
                 if (own[1] == "common") fault("common/ includes a chapter: " path)
                 else if (!(own[2] in builds_on)) fault("the chapter has no add_chapter line")
                 else if (!reaches(own[2], part[2])) fault(own[2] " does not build on " part[2])
-                else if (rank(part[3]) == 0) next
+                else if (rank(part[3]) == 0) {
+                    if (FILENAME ~ /\/measured\/data\.hpp$/) fault("measured/data.hpp includes the subject: " path)
+                    else next
+                }
                 else if (own[2] != part[2]) fault("closed to other chapters: " path)
                 else if (own[3] == "checks" && part[3] == "measured") next
                 else if (rank(own[3]) < rank(part[3])) fault(name_of(own[3]) " includes " part[3] "/: " path)

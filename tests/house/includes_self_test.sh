@@ -35,6 +35,7 @@ finds 'ch02_b does not build on ch03_c' chapters/ch02_b/up.hpp '  #  include "ch
 finds 'the subject includes measured/' chapters/ch01_a/low.hpp '#include "chapters/ch01_a/measured/m.hpp"'
 finds 'the subject includes figures/' chapters/ch01_a/low.hpp '#include "chapters/ch01_a/figures/f.hpp"'
 finds 'measured includes figures/' chapters/ch01_a/measured/m.hpp '#include "chapters/ch01_a/figures/f.hpp"'
+finds 'measured/data.hpp includes the subject' chapters/ch01_a/measured/data.hpp '#include "chapters/ch01_a/a.hpp"'
 finds 'the subject includes peers/' chapters/ch01_a/low.hpp '#include "chapters/ch01_a/peers/p.hpp"'
 finds 'closed to other chapters' chapters/ch02_b/closed.cpp '#include "chapters/ch01_a/measured/m.hpp"'
 finds 'common/ includes a chapter' common/up.hpp '#include "chapters/ch01_a/a.hpp"'

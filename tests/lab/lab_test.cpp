@@ -415,9 +415,16 @@ TEST_CASE("without --structure one of each chapter is measured; all and list nam
             all += structure["structure"].get<std::string>() + " ";
         return all;
     };
-    CHECK(names("") == "naive bsp ");
+    std::string first_of_each;
+    std::string_view home;
+    for (const Structure& structure : structures()) {
+        if (structure.home != home) first_of_each += std::string(structure.name) + " ";
+        home = structure.home;
+    }
+    CHECK(first_of_each.starts_with("naive bsp "));
+    CHECK(names("") == first_of_each);
     CHECK(names("--structure bsp-free,default --triangle-test watertight") ==
-          "bsp-free naive bsp ");
+          "bsp-free " + first_of_each);
     std::string every;
     for (const Structure& structure : structures()) every += std::string(structure.name) + " ";
     CHECK(names("--structure all --triangle-test moller-trumbore-float") == every);
@@ -425,9 +432,10 @@ TEST_CASE("without --structure one of each chapter is measured; all and list nam
     CHECK(structures().front().name == "naive");
     const Ended list = run(lab.with("--structure list"));
     CHECK(list.code == 0);
-    for (const char* line : {"naive         chapter 1  yes", "bsp           chapter 3  yes",
-                             "bsp-free      chapter 3  ", "peers   left out: "})
-        CHECK(list.out.find(line) != std::string::npos);
+    const std::string listed = with_single_blanks(list.out);
+    for (const char* line : {"naive chapter 1 yes ", "bsp chapter 3 yes ", "bsp-free chapter 3 as ",
+                             "peers left out: "})
+        CHECK(listed.find(line) != std::string::npos);
     const Ended tests = run(lab.with("--triangle-test list"));
     CHECK(tests.code == 0);
     for (const StructureVariant& variant : structures().back().variants)

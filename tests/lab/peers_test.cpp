@@ -181,13 +181,15 @@ TEST_CASE("a peer's wrong answers are counted by kind, and the exit code stays 0
 TEST_CASE("embree and cgal are measured by default, and list says which versions") {
     const Ended list = run(lab.with("--structure list"));
     CHECK(list.code == 0);
-    for (const char* text : {"embree         Embree ", "cgal           CGAL "})
-        CHECK(list.out.find(text) != std::string::npos);
+    const std::string listed = with_single_blanks(list.out);
+    for (const char* text : {"embree Embree ", "cgal CGAL "})
+        CHECK(listed.find(text) != std::string::npos);
     CHECK(list.out.find("left out") == std::string::npos);
     std::string names;
     const auto json = run_json(lab.with("--scene soup:50 --size 4x3 --triangle-test watertight"));
     for (const auto& structure : json["structures"])
         names += structure["structure"].get<std::string>() + " ";
-    CHECK(names == "naive bsp embree cgal ");
-    CHECK(json["structures"][2]["triangle_test"] == "its own");
+    CHECK(names.starts_with("naive bsp "));
+    CHECK(names.ends_with(" embree cgal "));
+    CHECK(json["structures"].back()["triangle_test"] == "its own");
 }

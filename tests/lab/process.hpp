@@ -67,6 +67,14 @@ struct Command {
     }
 };
 
+/// The text of a table, however wide its columns are.
+inline std::string with_single_blanks(const std::string& text) {
+    std::string single;
+    for (const char c : text)
+        if (c != ' ' || !single.ends_with(' ')) single += c;
+    return single;
+}
+
 struct Ended {
     int code;  ///< exit code; 128 + signal for a program that was killed
     std::string out, err;
