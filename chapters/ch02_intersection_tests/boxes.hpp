@@ -193,9 +193,13 @@ struct SlabConservative {
 
   private:
     static std::optional<Interval> in_double(const Prepared& ray, const Aabb& box) {
-        // Two roundings in each, difference and quotient, can put near (1 + 2^-53)^4 beyond far.
-        // Against the ends of the ray's interval they do nothing: tmax d is a double.
-        constexpr double margin = 5.0 * 0x1p-53;
+        // With w = 2^-53: difference and quotient round by a factor of 1 +- w each. Where far is g,
+        // rounded, near is at most g (1 + w) / (1 - w), rounded. For 1 <= far < 2, g is at most
+        // far + w, and so near at most far + (1 + 2 far) w, rounded, but for terms with w^2: that
+        // is no more than far + 3 far w, rounded. (Where the terms with w^2 count, next to 1, both
+        // sums are rounded alike. Behind the origin, far < 0, signs change and no more.) Against
+        // the ends of the ray's interval roundings do nothing: tmax d is a double.
+        constexpr double margin = 3.0 * 0x1p-53;
         double near = -infinity, far = infinity;
         for (int axis = 0; axis < 3; ++axis) {
             const double low = double{box.min[axis]} - ray.origin[axis],

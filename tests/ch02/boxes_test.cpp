@@ -325,6 +325,14 @@ TEST_CASE(
     CHECK(far < 2.5);  // two more than the four
 }
 
+TEST_CASE("near planes shortened by three roundings would be met too late, by this ray") {
+    // The difference is just above half-way between two floats, the product just above 2, and all
+    // four roundings go up; found among all 2^23 mantissas of d.
+    constexpr float o = 0x1p-24f, d = 0x1.33558ep-1f, plane = 0x1.3357bp+0f;
+    CHECK(relative_error((plane - o) * ((1.0f / d) * (1.0f - 3.0f * 0x1p-24f)), o, d, plane) > 0.0);
+    CHECK(relative_error(slab_ends(o, d, plane, infinity).enter, o, d, plane) <= 0.0);
+}
+
 TEST_CASE("ends of t among the denormal floats are within two of the exact ones, outside") {
     Pcg32 random(308);
     for (int i = 0; i < pairs_each; ++i) {

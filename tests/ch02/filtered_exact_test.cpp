@@ -335,6 +335,52 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("t half-way between two floats is the even one of them, whether the lower or the upper") {
+    Pcg32 random(208);
+    Outcome outcome;
+    int lower = 0;
+    for (int i = 0; i < pairs_each; ++i) {
+        const RayAndTriangle pair = nearly_half_way(random, 0.0f, 0x1p-24f);
+        const double t = double{pair.ray.origin.z} - pair.triangle.a.z;
+        lower += compare_one(pair, outcome) < t;
+    }
+    INFO(outcome.text());
+    CHECK(outcome.right());
+    CHECK(outcome.stages[Stage::expansions] == outcome.decisions);
+    CHECK(lower > pairs_each / 4);
+    CHECK(lower < pairs_each * 3 / 4);
+}
+
+TEST_CASE("the sign of a side that roundings turn round is left to exact numbers") {
+    // Straight down beside the middle of the edge from a to b or c. The first corner's last bits
+    // are lost in the differences, and the products round: the computed side is inside, the exact
+    // one is not, or the other way round.
+    Pcg32 random(207);
+    std::array<Outcome, 2> outcomes;
+    std::array<int, 2> turned{};
+    for (int i = 0; i < 10 * pairs_each; ++i) {
+        const auto number = [&] { return random.uniform(0.5f, 1.0f); };
+        const auto tiny = [&] { return 0x1p-52f * random.uniform(-1.0f, 1.0f); };
+        const float ax = tiny(), ay = tiny(), x = number(), y = number();
+        const Point3 a(ax, ay, 0), far(x, y, 0), left(-y, x, 0);
+        const bool at_u = i % 2;  // u is 0 on the edge from a to c
+        const Triangle triangle = at_u ? Triangle{a, -left, far} : Triangle{a, far, left};
+        const Ray ray{{0.5f * x, 0.5f * y, 1}, {0, 0, -1}, -infinity, infinity};
+        // Twice the area of a, the ray's point and the edge's end: in double, and (twice) exactly.
+        const double computed =
+            (double{x} - ax) * (0.5 * y - ay) - (double{y} - ay) * (0.5 * x - ax);
+        const double exact = double{y} * ax - double{x} * ay;
+        const double side = at_u ? -1.0 : 1.0;
+        turned[at_u] += side * computed > 0.0 && side * exact < 0.0;
+        compare_one({ray, triangle}, outcomes[at_u]);
+    }
+    for (int i = 0; i < 2; ++i) {
+        INFO(outcomes[i].text());
+        CHECK(outcomes[i].right());
+        CHECK(turned[i] > pairs_each / 100);
+    }
+}
+
 TEST_CASE("integers decide up to the last of their 127 bits, and no ray that needs more") {
     // Corners of a cube of side 2^p, each moved inwards by less than 2 so that all bits are used,
     // and directions of up to 24 bits: the volumes are as large as they can be.
@@ -375,6 +421,56 @@ TEST_CASE("integers decide up to the last of their 127 bits, and no ray that nee
         CHECK(outcome.stages[Stage::integers] > 0);
     }
     CHECK(outcomes[1].stages[Stage::expansions] > 0);
+}
+
+TEST_CASE("the largest volumes that integers hold, and the smallest that they don't") {
+    // Three corners of a cube, all of whose bits count because of a single 1 in the origin.
+    const auto triangle_of = [](int bits) {
+        const float m = std::ldexp(1.0f, bits) - std::ldexp(1.0f, bits - 24);
+        return Triangle{{m, -m, -m}, {-m, m, -m}, {-m, -m, m}};
+    };
+    const auto stages_of = [](const Ray& ray, const Triangle& triangle) {
+        Outcome outcome;
+        const std::optional<float> t = compare_one({ray, triangle}, outcome);
+        INFO(outcome.text());
+        CHECK(t);
+        CHECK(outcome.right());
+        return outcome.stages;
+    };
+    // A direction with two components near 2^w and one just below 2^24 makes det a hair more than
+    // twice the product of the factors: above 2^126, and above 2^127. t is so near to half-way
+    // between two floats that the filter cannot tell which it is.
+    const auto ray_of = [](const Point3& origin, int w) {
+        const float d = std::ldexp(1.0f, w) - std::ldexp(1.0f, w - 24);
+        return Ray{origin, {d, d, 0x1p24f - 1.0f}, -infinity, infinity};
+    };
+    for (const Point3& o : {Point3(0x1.fd5276p+23f, -0x1.56df2p+37f, -0x1.7c47c6p+39f),
+                            Point3(0x1.de1366p+23f, 0x1.266b28p+39f, -0x1.d8e888p+39f)})
+        CHECK(stages_of(ray_of(o, 41), triangle_of(41))[Stage::integers] == 1);
+    for (const Point3& o : {Point3(0x1.8a4f8cp+22f, 0x1.1a142p+37f, -0x1.874d82p+39f),
+                            Point3(0x1.c16b62p+23f, -0x1.6f44p+32f, -0x1.5feeeap+40f)})
+        CHECK(stages_of(ray_of(o, 42), triangle_of(41))[Stage::expansions] == 1);
+    // Of t, the origin at the fourth corner but for one coordinate makes one and a half of the
+    // product: 2^126 and 2^129 times 1.5.
+    const auto stages_beside = [&](float z, const Vector3& d, int bits) {
+        const float m = triangle_of(bits).a.x;
+        return stages_of({{m, m, z}, d}, triangle_of(bits));
+    };
+    CHECK(stages_beside(0x1.2f6cdp+20f, {-0x1.d3244cp-1f, -0x1.fc3f74p-1f, -0x1.2dbf9p-1f},
+                        41)[Stage::integers] == 1);
+    CHECK(stages_beside(0x1.59a81p+20f, {-0x1.efa9a2p-1f, -0x1.eee826p-1f, -0x1.288048p-1f},
+                        41)[Stage::integers] == 1);
+    CHECK(stages_beside(0x1.ab2a54p+22f, {-0x1.e4d764p-1f, -0x1.ece0acp-1f, -0x1.2ff12p-1f},
+                        42)[Stage::expansions] == 1);
+    CHECK(stages_beside(0x1.56eaa4p+22f, {-0x1.d49f62p-1f, -0x1.d1d5aep-1f, -0x1.2da304p-1f},
+                        42)[Stage::expansions] == 1);
+}
+
+TEST_CASE("a line in the triangle's plane, or beside it, does not hit it") {
+    const Triangle triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    CHECK(expansion_volumes({{1, 1, 1}, {0, 0, -1}}, triangle).line_hits());
+    CHECK_FALSE(expansion_volumes({{1, 1, 0}, {1, 0, 0}}, triangle).line_hits());
+    CHECK_FALSE(expansion_volumes({{1, 1, 1}, {1, 0, 0}}, triangle).line_hits());
 }
 
 TEST_CASE("a ray that is not valid and a triangle that is not finite are never hit") {
