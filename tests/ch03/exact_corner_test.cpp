@@ -250,6 +250,19 @@ TEST_CASE("three points on a line in double that are none in exact arithmetic ar
     CHECK(cgal_side(line, Double3(0, 0, 1)) == 0);
 }
 
+TEST_CASE("three points on a line are found there, whatever normal double computes for them") {
+    Pcg32 random(14);
+    int crooked = 0;
+    for (int i = 0; i < 100; ++i) {
+        const float x = ordinary(random), y = ordinary(random), z = ordinary(random);
+        const Point3 p(x, y, z);  // differences of its multiples have more bits than double
+        const Triangle line{-0x1p-40f * p, p, 0x1p10f * p};
+        crooked += one_norm<3>(SplitPlane<3>(line).normal) > 0.0;
+        CHECK(is_on_a_line(line));
+    }
+    CHECK(crooked > 50);
+}
+
 // ---- properties
 // -------------------------------------------------------------------------------------------------
 

@@ -239,11 +239,14 @@ TEST_CASE("a corner where two splitting planes meet is known by both") {
 TEST_CASE(
     "a thick plane takes corners within its thickness for its own, and the exact grade doesn't") {
     const float just = 0x1p-21f, beyond = 0x1p-19f;
-    const Scene<3> scene{{{{0, 0, just}, {1, 0, -just}, {0, 1, beyond}}}, {ground}};
-    const Fragment<3> fragment = whole_polygon<3>(scene.polygons[0], 0);
-    for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double})
-        CHECK(scene.sides(grade, fragment) == std::vector<int>{0, 0, 1});
-    CHECK(scene.sides(Grade::exact, fragment) == std::vector<int>{1, -1, 1});
+    for (const float size : {0.25f, 1.0f, 4.0f}) {  // of what the plane goes through
+        const SplitPlane<3> plane({{0, 0, 0}, {size, 0, 0}, {0, size, 0}});
+        const Scene<3> scene{{{{0, 0, just}, {1, 0, -just}, {0, 1, beyond}}}, {plane}};
+        const Fragment<3> fragment = whole_polygon<3>(scene.polygons[0], 0);
+        for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double})
+            CHECK(scene.sides(grade, fragment) == std::vector<int>{0, 0, 1});
+        CHECK(scene.sides(Grade::exact, fragment) == std::vector<int>{1, -1, 1});
+    }
 }
 
 TEST_CASE("a fragment has an extent with as many different corners as its dimension") {
