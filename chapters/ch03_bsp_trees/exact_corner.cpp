@@ -186,7 +186,7 @@ std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>
 
 /// Where three planes meet, by Cramer's rule about a point nearby, in double. A term of the
 /// determinant carries at most 17 roundings (four in each normal, two products, three sums), one of
-/// a numerator 20; 2 sum_roundings are 32, and pay for the bound's own, too.
+/// a numerator 20; 1.5 sum_roundings are 24, and pay for the bound's own, too.
 std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const SplitPlane<3>& b,
                                                const SplitPlane<3>& c) {
     const Double3 near(a.through[0]);
@@ -196,7 +196,7 @@ std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const Spl
                   from_c = Double3(c.through[0]) - near;  // a's offset is 0
     const Double3 numerator = glm::dot(b.normal, from_b) * ca + glm::dot(c.normal, from_c) * ab;
     const double denominator = glm::dot(a.normal, bc);
-    const double volume = 2.0 * sum_roundings * a.size * b.size * c.size,
+    const double volume = 1.5 * sum_roundings * a.size * b.size * c.size,
                  reach = one_norm<3>(from_b) + one_norm<3>(from_c);
     const double left = std::abs(denominator) - volume;
     if (!(left > 0.0)) return std::nullopt;

@@ -346,7 +346,7 @@ TEST_CASE("corners lie as near to their exact points as they say") {
          0x1.6dfef8p-20f,  0x1.6dfff6p-20f,  -0x1.a0b568p+0f,  0x1p-51f,        -0x1.2d9fep-29f,
          0x1.e3ffacp-3f,   -0x1.32124ap-3f,  0x1.df031ep-23f,  0x1.f3d766p+1f,  0x1.02c71ap-40f,
          0x1.c00a8ap+5f,   0x1.108484p-28f},
-        0.1);
+        0.125);
     check<8>("rounded exact point", part_of_rounding,
              {0x1.b975f4p-4f, 0x1.2b2946p+4f, 0x1.2b3b48p+6f, -0x1.f4c54cp-5f, -0x1.f4c54ap-5f,
               0x1.c3034ap+0f, 0x1.99f4fap-4f, 0x1.99f4f8p-4f},
