@@ -3,7 +3,7 @@
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/results.hpp"
-#include "common/program/svg.hpp"
+#include "common/program/svg_colors.hpp"
 #include "common/program/temporary.hpp"
 #include "common/program/xml.hpp"
 
@@ -39,10 +39,6 @@ constexpr double character_width = 0.6 * text_size;
 
 constexpr std::array series_inks{Ink::blue, Ink::vermillion, Ink::green,
                                  Ink::ink,  Ink::purple,     Ink::orange};
-/// Orange is too pale for text.
-Ink text_ink(Ink series) {
-    return series == Ink::orange ? Ink::ink : series;
-}
 /// gnuplot's filled circle, square, triangle, diamond, pentagon, inverted triangle: colours are not
 /// the only difference.
 constexpr std::array point_types{7, 5, 9, 13, 15, 11};
@@ -211,7 +207,7 @@ class Script {
         add("set label {} at screen {:.5f},{:.5f} {} font ',{}' textcolor rgb '{}'", quoted(text),
             x / chart_width,
             // gnuplot centres text at the given height: a third of its size above the base line
-            1.0 - (y - text_size / 3) / chart_height, place, text_size, svg_color(ink));
+            1.0 - (y - text_size / 3) / chart_height, place, text_size, svg_text_color(ink));
     }
     /// What stands for the series in the chart, before its name at (x, y).
     void symbol(std::size_t series, double x, double y) {
@@ -299,9 +295,8 @@ class Script {
             const double base =
                 name.y + text_size / 3 - (series.note.empty() ? 0 : 0.5 * line_height);
             symbol(name.series, column, base);
-            label(series.name, column + symbol_width, base, "left", text_ink(ink(name.series)));
-            label(series.note, column + symbol_width, base + line_height, "left",
-                  text_ink(ink(name.series)));
+            label(series.name, column + symbol_width, base, "left", ink(name.series));
+            label(series.note, column + symbol_width, base + line_height, "left", ink(name.series));
         }
     }
 

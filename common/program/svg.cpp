@@ -1,6 +1,7 @@
 #include "common/program/svg.hpp"
 
 #include "common/program/image.hpp"
+#include "common/program/svg_colors.hpp"
 #include "common/program/xml.hpp"
 
 #include <fmt/format.h>
@@ -20,10 +21,11 @@ struct PaletteEntry {
     std::string_view name, light, dark;
 };
 
-// In the order of Ink. The light values of the colours are those of Okabe & Ito; the dark ones are
-// as far apart, and light enough to be read on a dark page. Grey text stands at least 4.5 : 1
-// against its paper.
-constexpr std::array<PaletteEntry, 11> palette{{
+// In the order of Ink, then the colours of text. The light values of the colours are those of Okabe
+// & Ito; the dark ones are as far apart, and light enough to be read on a dark page. Three of the
+// light ones are too pale to be read on white: as text they are darker. All text stands at
+// least 4.5 : 1 against its paper (WCAG 2.1, level AA).
+constexpr std::array<PaletteEntry, 14> palette{{
     {"ink", "#1a1a1a", "#ececec"},
     {"paper", "#ffffff", "#1c1d1f"},
     {"quiet", "#666666", "#a6a9ae"},
@@ -35,9 +37,40 @@ constexpr std::array<PaletteEntry, 11> palette{{
     {"sky", "#56b4e9", "#9ad8f8"},
     {"yellow", "#f0e442", "#f5ec7a"},
     {"purple", "#cc79a7", "#e3a2c7"},
+    {"green-text", "#00775a", "#2bc298"},
+    {"vermillion-text", "#b84a00", "#f5803e"},
+    {"purple-text", "#a04a7d", "#e3a2c7"},
 }};
+constexpr std::size_t green_text = 11, vermillion_text = 12, purple_text = 13;
+
+const PaletteEntry& text_entry(Ink ink) {
+    switch (ink) {
+        case Ink::green:
+            return palette[green_text];
+        case Ink::vermillion:
+            return palette[vermillion_text];
+        case Ink::purple:
+            return palette[purple_text];
+        case Ink::faint:
+        case Ink::orange:
+        case Ink::sky:
+        case Ink::yellow:
+            return palette[static_cast<std::size_t>(Ink::ink)];
+        default:
+            return palette[static_cast<std::size_t>(ink)];
+    }
+}
 
 constexpr double arrow_length = 12.0, arrow_half_width = 4.5;
+
+constexpr std::string_view font_rules =
+    ".book-figure text{font-family:system-ui,\"Segoe UI\",Roboto,Helvetica,Arial,\"DejaVu "
+    "Sans\",sans-serif}\n"
+    ".book-figure .italic{font-family:\"Latin Modern Roman\",\"STIX Two Text\",\"Times New "
+    "Roman\",Times,"
+    "\"DejaVu Serif\",serif;font-style:italic}\n"
+    ".book-figure .halo{paint-order:stroke;stroke-width:5;stroke-linejoin:round}\n"
+    ".book-figure .pixels{image-rendering:pixelated}\n";
 
 std::string style_block() {
     std::string light, dark, rules;
@@ -56,16 +89,9 @@ std::string style_block() {
         "@media (prefers-color-scheme:dark){{svg.book-figure{{{1}}}}}\n"
         "html.light-mode svg.book-figure{{{0}{2}}}\n"
         "html.dark-mode svg.book-figure{{{1}{3}}}\n"
-        ".book-figure text{{font-family:system-ui,\"Segoe UI\",Roboto,Helvetica,Arial,\"DejaVu "
-        "Sans\",sans-serif}}\n"
-        ".book-figure .italic{{font-family:\"Latin Modern Roman\",\"STIX Two Text\",\"Times New "
-        "Roman\",Times,"
-        "\"DejaVu Serif\",serif;font-style:italic}}\n"
-        ".book-figure .halo{{paint-order:stroke;stroke-width:5;stroke-linejoin:round}}\n"
-        ".book-figure .pixels{{image-rendering:pixelated}}\n"
-        "{4}</style>\n",
+        "{4}{5}</style>\n",
         light, dark, fmt::format(fmt::runtime(page), palette[1].light),
-        fmt::format(fmt::runtime(page), palette[1].dark), rules);
+        fmt::format(fmt::runtime(page), palette[1].dark), font_rules, rules);
 }
 
 std::string base64(std::string_view bytes) {
@@ -143,6 +169,30 @@ std::string marked_up(std::string_view text, double size) {
 
 std::string_view svg_color(Ink ink) {
     return palette[static_cast<std::size_t>(ink)].light;
+}
+
+std::string_view svg_text_color(Ink ink, bool dark) {
+    return dark ? text_entry(ink).dark : text_entry(ink).light;
+}
+
+std::string_view svg_paper(bool dark) {
+    const PaletteEntry& paper = palette[static_cast<std::size_t>(Ink::paper)];
+    return dark ? paper.dark : paper.light;
+}
+
+std::string svg_fixed(std::string document, bool dark) {
+    const std::string style = style_block();
+    if (const std::size_t at = document.find(style); at != document.npos)
+        document.replace(at, style.size(), fmt::format("<style>\n{}</style>\n", font_rules));
+    // No dark colour is a light one of another, so one after the other is right.
+    for (const PaletteEntry& color : palette)
+        for (const char quote : {'"', '\''}) {
+            const std::string from = quote + std::string(color.light) + quote,
+                              to = quote + std::string(color.dark) + quote;
+            for (std::size_t at = 0; dark && (at = document.find(from, at)) != document.npos;)
+                document.replace(at, from.size(), to);
+        }
+    return document;
 }
 
 std::string svg_number(double value) {
@@ -227,7 +277,7 @@ void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::st
         " x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" "
         "fill=\"{}\"",
         svg_number(at.x), svg_number(at.y), svg_number(style.size),
-        anchors[static_cast<std::size_t>(style.anchor)], svg_color(style.ink));
+        anchors[static_cast<std::size_t>(style.anchor)], svg_text_color(style.ink));
     if (style.bold) body_ += " font-weight=\"bold\"";
     if (style.halo) body_ += fmt::format(" class=\"halo\" stroke=\"{}\"", svg_color(Ink::paper));
     body_ += ">" + marked_up(text, style.size) + "</text>\n";

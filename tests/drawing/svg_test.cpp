@@ -1,12 +1,17 @@
 #include "common/program/svg.hpp"
 
 #include "common/program/image.hpp"
+#include "common/program/svg_colors.hpp"
 #include "common/program/xml.hpp"
 #include "tests/catch.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 using namespace space;
 
@@ -171,4 +176,61 @@ TEST_CASE("a group that is not closed, or not open, is a fault that shows") {
     CHECK_THROWS_AS(open.document("f"), std::logic_error);
     Svg closed("", 1, 1);
     CHECK_THROWS_AS(closed.end_group(), std::logic_error);
+}
+
+namespace {
+
+/// Relative luminance and contrast by WCAG 2.1, of "#rrggbb".
+double luminance(std::string_view color) {
+    const std::array<double, 3> weights{0.2126, 0.7152, 0.0722};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double c = std::stoi(std::string(color.substr(1 + 2 * i, 2)), nullptr, 16) / 255.0;
+        sum += weights[i] * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return sum;
+}
+double contrast(std::string_view a, std::string_view b) {
+    const auto [darker, lighter] = std::minmax(luminance(a), luminance(b));
+    return (lighter + 0.05) / (darker + 0.05);
+}
+
+}  // namespace
+
+TEST_CASE("text in every ink stands at least 4.5 to 1 against light and dark paper") {
+    CHECK(contrast("#000000", "#ffffff") == Approx(21.0));
+    CHECK(contrast("#777777", "#ffffff") < 4.5);  // the best known colour that just fails
+    for (int i = 0; i <= static_cast<int>(Ink::purple); ++i) {
+        const Ink ink = static_cast<Ink>(i);
+        if (ink == Ink::paper) continue;  // on dark shapes
+        for (const bool dark : {false, true}) {
+            CAPTURE(i, dark, svg_text_color(ink, dark));
+            CHECK(contrast(svg_text_color(ink, dark), svg_paper(dark)) >= 4.5);
+            Svg svg("t", 10, 10);
+            svg.text({0, 0}, "text", {.ink = ink});
+            CHECK(contains(svg.document("f"), fmt::format("fill=\"{}\">", svg_text_color(ink))));
+        }
+    }
+}
+
+TEST_CASE("a drawing with fixed colours has those of its page alone, and no style for others") {
+    Svg svg("", 10, 10);
+    for (int ink = 0; ink <= static_cast<int>(Ink::purple); ++ink) {
+        svg.rect({0, 0}, {1, 1}, {.stroke = static_cast<Ink>(ink), .fill = static_cast<Ink>(ink)});
+        svg.text({0, 0}, "text", {.ink = static_cast<Ink>(ink)});
+    }
+    const std::string document = svg.document("f"), dark = svg_fixed(document, true),
+                      light = svg_fixed(document, false);
+    for (const std::string& fixed : {dark, light}) {
+        CHECK(count(fixed, "var(--") == 0);
+        CHECK(count(fixed, "prefers-color-scheme") == 0);
+        CHECK(count(fixed, "font-style:italic") == 1);
+        CHECK(count(fixed, "<rect") == count(document, "<rect"));
+    }
+    for (int ink = 0; ink <= static_cast<int>(Ink::purple); ++ink) {
+        CHECK(count(dark, svg_color(static_cast<Ink>(ink))) == 0);
+        CHECK(count(light, svg_color(static_cast<Ink>(ink))) > 0);
+        CHECK(count(dark, svg_text_color(static_cast<Ink>(ink), true)) > 0);
+    }
+    CHECK(contains(dark, fmt::format("fill=\"{}\"/>", svg_paper(true))));
 }

@@ -101,7 +101,11 @@ Svg fig_02_01(const Options&) {
          {342, Ink::blue, "both"},
          {446, Ink::vermillion, "neither: a leak"}}};
     for (const auto& [left, ink, label] : legend) {
-        svg.rect({left, 533}, {20, 20}, {.stroke = Ink::quiet, .fill = ink});
+        // A picture, as those above it: neither changes its colours on a dark page.
+        Image swatch(1, 1);
+        swatch.at(0, 0) = pixel(ink);
+        svg.picture({left, 533}, {20, 20}, swatch, fmt::format("legend-{}", left));
+        svg.rect({left, 533}, {20, 20}, {.stroke = Ink::quiet});
         svg.text({left + 28, 549}, label, {.anchor = Anchor::start, .size = 17});
     }
     return svg;
