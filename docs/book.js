@@ -1,5 +1,19 @@
 // What the pages of the book do in a browser, beside what doxygen-awesome brings: formulas, search, wide tables.
 DoxygenAwesomeDarkModeToggle.title = "Light or dark page";
+// The switch by keyboard and for screen readers; doxygen-awesome calls this when it makes and when it turns it.
+const updateIcon = DoxygenAwesomeDarkModeToggle.prototype.updateIcon;
+DoxygenAwesomeDarkModeToggle.prototype.updateIcon = function () {
+  updateIcon.call(this);
+  this.tabIndex = 0;
+  this.setAttribute("role", "switch");
+  this.setAttribute("aria-label", "Dark page");
+  this.setAttribute("aria-checked", Boolean(DoxygenAwesomeDarkModeToggle.darkModeEnabled));
+  this.onkeydown = (event) => {
+    if (event.key !== " " && event.key !== "Enter") return;
+    event.preventDefault();
+    this.toggleDarkMode();
+  };
+};
 DoxygenAwesomeDarkModeToggle.init();
 DoxygenAwesomeFragmentCopyButton.init();
 DoxygenAwesomeParagraphLink.init();
@@ -155,6 +169,9 @@ document.addEventListener("DOMContentLoaded", () => {
     table.replaceWith(box);
     box.append(table);
   }
+
+  // The box that opens the menu on a phone is Doxygen's, made when the page is ready.
+  window.addEventListener("load", () => document.getElementById("main-menu-state")?.setAttribute("aria-label", "Menu"));
 
   const field = document.getElementById("MSearchField"), results = document.createElement("div");
   results.id = "search-results";

@@ -248,10 +248,11 @@ std::string figures_page(const std::vector<Chapter>& chapters, const std::vector
         "Every figure of the book is made by a program of the book: drawings are the algorithms' "
         "own output, charts "
         "are "
-        "drawn from measurements. One command makes a figure again:\n\n    ./book figures "
-        "fig_01_01\n\n"
-        "A drawing is an SVG file that follows light and dark pages; a chart comes with its "
-        "data.\n\n";
+        "drawn from measurements. One command makes figures again:\n\n    ./book figures "
+        "1.1 1.3\n    ./book figures 1.1 --dark\n\n"
+        "A drawing is an SVG file that follows light and dark pages; with `--dark` or `--light` "
+        "its "
+        "colours are fixed, for slide programs. A chart comes with its data.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(figures, chapter.folder, &Figure::chapter) == 0) continue;
         text += fmt::format("\\section figures_{} Chapter {}: {}\n\n", chapter.folder,

@@ -86,6 +86,9 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
                       const std::function<void(CLI::App&)>& more) {
     Options options = program.defaults;
+    // From the book's folder, where the pages' commands are typed, nothing is left outside of
+    // build.
+    if (options.out == ".") options.out = fmt::format("build/out/{}", program.name.substr(0, 4));
     CLI::App app(program.about, std::string(program.name));
     app.add_option("--scene", options.scene, "a scene by name (NAME or NAME:SIZE) or a mesh file")
         ->capture_default_str();

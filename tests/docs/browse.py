@@ -153,15 +153,46 @@ raw_formulas = r"""
             raw.push(texts.currentNode.data.slice(0, 80));
     return raw;"""
 
+# Text that stands less than 4.5 : 1 against what is under it (WCAG 2.1, level AA); large text and what is switched off
+# are held to it, too, but for disabled buttons. A drawing's text is measured against its paper.
+pale = """
+    const numbers = (color) => { const c = color.match(/[\\d.]+/g).map(Number); return [c[0], c[1], c[2], c[3] ?? 1]; };
+    const over = (top, under) => [0, 1, 2].map((i) => top[3] * top[i] + (1 - top[3]) * under[i]).concat(1);
+    const background = (element) => {
+        if (!element) return [255, 255, 255, 1];
+        const own = numbers(getComputedStyle(element).backgroundColor);
+        return own[3] === 1 ? own : over(own, background(element.parentElement));
+    };
+    const luminance = (color) => color.slice(0, 3).map((c) => c / 255).map((c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+    const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), found = new Map();
+    let measured = 0;
+    while (texts.nextNode()) {
+        const element = texts.currentNode.parentElement, style = getComputedStyle(element);
+        if (!texts.currentNode.data.trim() || !element.getClientRects().length || style.visibility !== "visible") continue;
+        if (element.closest("script, style, title, desc, :disabled")) continue;
+        const drawn = element.closest("svg.book-figure");
+        const under = background(drawn ? drawn.parentElement : element);
+        const ink = over(numbers(drawn ? style.fill : style.color), under);
+        const [low, high] = [luminance(ink), luminance(under)].sort((a, b) => a - b), contrast = (high + 0.05) / (low + 0.05);
+        measured += 1;
+        if (contrast < 4.5) found.set(ink + " on " + under, contrast.toFixed(2) + " " + element.className + " " + texts.currentNode.data.trim().slice(0, 30));
+    }
+    return {measured, found: [...found].map(([colours, what]) => what + ": " + colours).slice(0, 5)};"""
+
 samples = [name for name in pages if re.match(r"(struct|class)", name) and "-members" not in name][:2] + \
           [name for name in ("annotated.html", "files.html") if name in pages]
-formulas = drawings = 0
+formulas = drawings = texts = 0
 for name in book + samples:
     for width, mode in ((1280, "light"), (390, "dark")):
         window(width, mode)
         open_page(name)
         for wide in run(sticking_out) if name in book else ():
             fault(name, f"at {width} px sticks out: {wide}")
+        contrasts = run(pale)
+        texts += contrasts["measured"]
+        for text in contrasts["found"]:
+            fault(name, f"in {mode} mode is hard to read: {text}")
     for raw in run(raw_formulas):
         fault(name, f"a formula is left raw: {raw}")
     for image in run("return [...document.images].filter(i => !i.complete || !i.naturalWidth).map(i => i.src)"):
@@ -191,6 +222,44 @@ for system in ("light", "dark"):
     chromium.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
     if run(colours) != before:
         fault("dark mode", "switching twice does not come back")
+
+# By keyboard: from the search field on comes the switch, which a key turns, and never a box that nobody sees.
+window(1280)
+open_page("index.html")
+chromium.find_element(By.ID, "MSearchField").send_keys(Keys.TAB)
+switch = chromium.switch_to.active_element
+if switch.tag_name != "doxygen-awesome-dark-mode-toggle" or not switch.get_attribute("aria-label"):
+    fault("keyboard", f"after the search field comes {switch.tag_name} {switch.get_attribute('id')}")
+else:
+    for key, mode in ((" ", "true"), (Keys.ENTER, "false")):
+        switch.send_keys(key)
+        if switch.get_attribute("aria-checked") != mode:
+            fault("keyboard", f"the switch is {switch.get_attribute('aria-checked')} after a key that makes it {mode}")
+if run("return document.getElementById('main-menu-state')?.getClientRects().length"):
+    fault("keyboard", "the phone's menu box is in the way")
+
+# On paper: light colours from a dark page, too; nothing to press, nothing that scrolls, every sentence of the steps.
+printed = """
+    const shown = (selector) => [...document.querySelectorAll(selector)].filter((e) => e.getClientRects().length).length;
+    return {mode: document.documentElement.className.match(/(light|dark)-mode/)[0], paper: getComputedStyle(document.body).backgroundColor,
+            pressed: shown("#top *, #side-nav *, .toc, .step-bar, doxygen-awesome-fragment-copy-button"),
+            hidden: [...document.querySelectorAll("ol.steps li")].filter((e) => getComputedStyle(e).visibility !== "visible").length,
+            scrolled: [...document.querySelectorAll(".fragment, .scroll, .formulaDsp, .line")].filter(
+                (e) => /auto|scroll/.test(getComputedStyle(e).overflowX)).length};"""
+for name in (name for name in book if name.startswith("ch")):
+    window(1280, "dark")
+    open_page(name)
+    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(media="print", features=[dict(name="prefers-color-scheme", value="dark")]))
+    if not wait("document.documentElement.classList.contains('light-mode')", 5):
+        fault(name, "is printed dark")
+    on_paper = run(printed)
+    if on_paper != dict(mode="light-mode", paper="rgb(255, 255, 255)", pressed=0, hidden=0, scrolled=0):
+        fault(name, f"on paper: {on_paper}")
+    for text in run(pale)["found"]:
+        fault(name, f"on paper is hard to read: {text}")
+    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(media="", features=[dict(name="prefers-color-scheme", value="dark")]))
+    if not wait("document.documentElement.classList.contains('dark-mode')", 5):
+        fault(name, "is not dark again after printing")
 
 # Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
 # out; without scripts, the last step's drawing stands and all sentences.
@@ -292,5 +361,5 @@ chromium.quit()
 
 for line in faults:
     print(line)
-print(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings, {steps_walked} steps: {len(faults)} faults")
+print(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings, {texts} texts, {steps_walked} steps: {len(faults)} faults")
 sys.exit(1 if faults else 0)

@@ -26,6 +26,8 @@ ends() {
 ends 0 'book run' help
 ends 0 'book run' --help
 ends 0 'book run'
+for command in run try test exercise figures bench docs print scenes doctor; do ends 0 "^  ./book $command " $command --help; done
+ends 0 '^Splitting Space [0-9]' --version
 ends 2 'nonsense: there is no such command' nonsense
 ends 2 'chapter 99: there is none; there are: 1' run 99
 ends 2 'chapter x: there is none' run x
@@ -43,9 +45,14 @@ ends 2 'such as 1.2' exercise hint ''
 ends 2 'give one exercise' exercise check
 ends 2 'give one exercise' exercise check 1.1 1.2
 ends 2 'there is list' exercise solve 1.1
-ends 2 'takes no more' docs 1
+ends 2 'takes --shipped and no more' docs 1
 ends 2 'takes --install and no more' doctor 1
 ends 2 'unknown option --all' figures --all
+ends 2 'figure 9.9: there is none; there are: 1.1 ' figures 3.4 9.9
+ends 2 'figure 3_: there is none' figures 3_
+ends 2 'not both' figures --dark --light
+ends 2 'follow the reader' figures --dark --update
+ends 2 'takes no more' print 1
 ends 0 'g\+\+ ' doctor
 
 # Nothing is installed, and what is missing is named, with --no-install.
