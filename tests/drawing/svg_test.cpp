@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -191,7 +192,8 @@ double luminance(std::string_view color) {
     return sum;
 }
 double contrast(std::string_view a, std::string_view b) {
-    const auto [darker, lighter] = std::minmax(luminance(a), luminance(b));
+    const double one = luminance(a), other = luminance(b);
+    const double darker = std::min(one, other), lighter = std::max(one, other);
     return (lighter + 0.05) / (darker + 0.05);
 }
 
