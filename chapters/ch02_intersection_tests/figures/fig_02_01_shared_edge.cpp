@@ -47,6 +47,22 @@ SharedEdge shared_edge(int side) {
     return result;
 }
 
+void draw_legend(Svg& svg) {
+    const std::array<std::tuple<float, Ink, const char*>, 4> legend{
+        {{10, Ink::sky, "only *a b c*"},
+         {176, Ink::yellow, "only *a c d*"},
+         {342, Ink::blue, "both"},
+         {446, Ink::vermillion, "neither: a leak"}}};
+    for (const auto& [left, ink, label] : legend) {
+        // A picture, as those above it: neither changes its colours on a dark page.
+        Image swatch(1, 1);
+        swatch.at(0, 0) = pixel(ink);
+        svg.picture({left, 533}, {20, 20}, swatch, fmt::format("legend-{}", left));
+        svg.rect({left, 533}, {20, 20}, {.stroke = Ink::quiet});
+        svg.text({left + 28, 549}, label, {.anchor = Anchor::start, .size = 17});
+    }
+}
+
 }  // namespace
 
 Svg fig_02_01(const Options&) {
@@ -95,19 +111,7 @@ Svg fig_02_01(const Options&) {
     panel(4, "Möller–Trumbore", shared_edge<MollerTrumboreFloat>(side));
     panel(220, "watertight", shared_edge<Watertight>(side));
     panel(436, "exact", shared_edge<FilteredExact>(side));
-    const std::array<std::tuple<float, Ink, const char*>, 4> legend{
-        {{10, Ink::sky, "only *a b c*"},
-         {176, Ink::yellow, "only *a c d*"},
-         {342, Ink::blue, "both"},
-         {446, Ink::vermillion, "neither: a leak"}}};
-    for (const auto& [left, ink, label] : legend) {
-        // A picture, as those above it: neither changes its colours on a dark page.
-        Image swatch(1, 1);
-        swatch.at(0, 0) = pixel(ink);
-        svg.picture({left, 533}, {20, 20}, swatch, fmt::format("legend-{}", left));
-        svg.rect({left, 533}, {20, 20}, {.stroke = Ink::quiet});
-        svg.text({left + 28, 549}, label, {.anchor = Anchor::start, .size = 17});
-    }
+    draw_legend(svg);
     return svg;
 }
 
