@@ -7,6 +7,7 @@
 #include "tests/suite/adversarial_scenes.hpp"
 
 #include <string>
+#include <tuple>
 
 namespace space {
 namespace {
@@ -276,6 +277,20 @@ TEST_CASE("no tree holds a fragment with fewer different corners than its dimens
                 small += !Cutter<3>::has_extent(f);
             CHECK(small == 0);
         }
+}
+
+TEST_CASE("a tip whose two cuts round to one point is left out, but not by the exact grade") {
+    for (const auto& [grade, tip, pieces] : {std::tuple{Grade::thick_float, -0x1p-20f, 1},
+                                             std::tuple{Grade::ordered_float, -0x1p-20f, 1},
+                                             std::tuple{Grade::ordered_double, -0x1p-48f, 1},
+                                             std::tuple{Grade::exact, -0x1p-48f, 2}}) {
+        const std::vector<Triangle> polygons{{{0, 0, 1}, {0, 1, 1}, {0, 0, 2}},
+                                             {{tip, 1, 0}, {1, 1, 0}, {1, 1 + 0x1p-10f, 0}}};
+        const BspTree<3> tree = BspBuilder<3>::build(
+            polygons, {.splitter = BspConfig::SplitterChoice::first, .grade = grade});
+        CHECK(std::count_if(tree.fragments.begin(), tree.fragments.end(),
+                            [](const auto& f) { return f.polygon == 1; }) == pieces);
+    }
 }
 
 TEST_CASE("the exact grade keeps a sliver whose corners are the same in double") {
