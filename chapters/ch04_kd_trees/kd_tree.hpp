@@ -1,0 +1,248 @@
+/// @file
+/// Rays in a k-d tree: front to back, both halves only where the ray may meet the plane within the
+/// cell.
+#pragma once
+
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch04_kd_trees/kd_builder.hpp"
+#include "common/accelerator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace space {
+
+// [kd_ray]
+/// What the walk needs of a ray, once for all nodes.
+template <int D>
+struct KdRay {
+    Double<D> origin, inverse;         ///< 1 / direction; +-infinity for +-0
+    std::array<std::uint32_t, D> far;  ///< by axis, which half the ray comes to last
+
+    explicit KdRay(const BasicRay<D>& ray)
+        : origin(ray.origin), inverse(1.0 / Double<D>(ray.direction)) {
+        for (int axis = 0; axis < D; ++axis)
+            far[static_cast<std::size_t>(axis)] = std::signbit(ray.direction[axis]) ? 0 : 1;
+    }
+
+    /// The ray's t on a plane across an axis. Three roundings, of the difference, of the reciprocal
+    /// and of the product, in double, where floats can't make them over- or underflow: off by at
+    /// most gamma(3) |t|, and of the right sign. Along the plane it is +-infinity, as if the plane
+    /// stood before or behind all of the ray; within the plane it is not a number.
+    double distance(int axis, float position) const {
+        return (double{position} - origin[axis]) * inverse[axis];
+    }
+};
+
+/// The part [enter, leave] of a ray: not less than what lies in a cell, in exact arithmetic.
+///
+/// With u = 2^-53 let t be a computed distance and T the exact one: |t - T| <= gamma(3) |T|. An end
+/// that a plane makes is set 8 u |t| farther out, which is exact, with one rounding of the sum: all
+/// in all beyond T by more than 3 u |T| and the terms with u^2. So where another plane's computed
+/// distance lies outside of the end, by any amount, its exact distance lies outside of T, and the
+/// comparison needs no margin of its own. (7 u would leave nothing for the terms with u^2.)
+struct RayPart {
+    double enter, leave;
+
+    /// What counts is t rounded to float: a hit may lie half a place outside of the ray's interval.
+    template <int D>
+    static RayPart all_of(const BasicRay<D>& ray) {
+        return {std::max<double>(std::nextafter(ray.tmin, -infinity), -largest),
+                std::min<double>(std::nextafter(ray.tmax, infinity), largest)};
+    }
+
+    /// Where t is not a number, all of the part stays.
+    void begin_at(double t) { enter = std::max(enter, t - margin * std::abs(t)); }
+    void end_at(double t) { leave = std::min(leave, t + margin * std::abs(t)); }
+
+    static constexpr double margin = 8.0 * 0x1p-53;
+    /// Finite, so that an infinite distance lies outside.
+    static constexpr double largest = std::numeric_limits<double>::max();
+};
+// [kd_ray]
+
+/// The ray's part in a box, if there is any.
+template <int D>
+std::optional<RayPart> part_in(const BasicAabb<D>& box, const BasicRay<D>& ray,
+                               const KdRay<D>& prepared) {
+    RayPart part = RayPart::all_of(ray);
+    for (int axis = 0; axis < D; ++axis) {
+        const bool upwards = prepared.far[static_cast<std::size_t>(axis)] == 1;
+        const double first = prepared.distance(axis, (upwards ? box.min : box.max)[axis]);
+        const double last = prepared.distance(axis, (upwards ? box.max : box.min)[axis]);
+        if (first > part.leave || last < part.enter) return std::nullopt;
+        part.begin_at(first);
+        part.end_at(last);
+    }
+    return part;
+}
+
+/// Event: the walk has come to a node, with this part of the ray in its cell.
+struct KdVisit {
+    std::uint32_t node;
+    RayPart part;
+};
+
+// [walk]
+/// Walks the cells along the ray. Calls own(node) for every leaf, and for every inner node that
+/// keeps polygons; it returns the t beyond which nothing matters any more (NaN: nothing at all). A
+/// hit beyond the cell in hand ends nothing: the cells between begin before it. The observer is
+/// told every node (KdVisit).
+template <int D, class Counts, class Own, class Observer = NoObserver>
+void walk_cells(const KdNodes<D>& tree, const BasicRay<D>& ray, Counts& counts, const Own& own,
+                Observer&& observer = {}) {
+    if (!is_valid(ray) || tree.nodes.empty()) return;
+    const KdRay<D> prepared(ray);
+    const std::optional<RayPart> in_box = part_in(tree.box, ray, prepared);
+    if (!in_box) return;
+    RayPart part = *in_box;
+    std::array<KdVisit, max_kd_depth> waiting;  // far halves, one a node above the one in hand
+    std::size_t size = 0;
+    double limit = infinity;
+    for (std::uint32_t index = 0;;) {
+        for (;;) {
+            const KdNode node = tree.nodes[index];
+            counts.visit_node();
+            observer.observe(KdVisit{index, part});
+            if (node.is_leaf() || node.keeps()) {
+                limit = own(index);
+                if (node.is_leaf() || !(part.enter <= limit)) break;
+            }
+            const std::uint32_t far = node.below() + prepared.far[std::size_t(node.axis())];
+            const double t = prepared.distance(node.axis(), node.position());
+            if (t < part.enter) {
+                index = far;
+                continue;
+            }
+            index = far ^ 1;
+            if (t > part.leave) continue;
+            waiting[size] = {far, part};
+            waiting[size++].part.begin_at(t);
+            part.end_at(t);
+        }
+        do {
+            if (size == 0) return;
+            --size;
+        } while (!(waiting[size].part.enter <= limit));
+        index = waiting[size].node;
+        part = {waiting[size].part.enter, std::min(waiting[size].part.leave, limit)};
+    }
+}
+// [walk]
+
+/// The triangles that a ray has tested last: where a triangle is in several cells, it need not be
+/// tested again (Amanatides & Woo 1987). On the ray's own stack: threads share nothing.
+class Mailbox {
+  public:
+    explicit Mailbox(bool used) : used_(used) { last_.fill(~0u); }
+
+    /// Whether the triangle was among the last; it is from now on.
+    bool remembers(std::uint32_t triangle) {
+        if (!used_) return false;
+        std::uint32_t& slot = last_[triangle % last_.size()];
+        if (slot == triangle) return true;
+        slot = triangle;
+        return false;
+    }
+
+  private:
+    bool used_;
+    std::array<std::uint32_t, 16> last_;
+};
+
+/// The accelerator. With the exact test its answers are those of the naive loop, bit for bit.
+template <TriangleTest Test = FilteredExact>
+class KdTree {
+  public:
+    using Config = KdTreeConfig;
+
+    template <class Observer = NoObserver>
+    static KdTree build(std::span<const Triangle> triangles, const Config& config = {},
+                        Observer&& observer = {}) {
+        KdTree tree;
+        tree.triangles_.assign(triangles.begin(), triangles.end());
+        tree.nodes_ = KdBuilder<3>::build(tree.triangles_, config, observer);
+        tree.costs_ = config.costs;
+        tree.mailboxes_ = config.mailboxes;
+        return tree;
+    }
+    const KdNodes<3>& nodes() const { return nodes_; }
+
+    template <class Counts>
+    std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
+        std::optional<Hit> nearest;
+        search(ray, counts, [&](const Hit& hit) {
+            if (!nearest || nearer(hit, *nearest)) nearest = hit;
+            // A hit half a place farther may round to the same t and have the smaller index.
+            return double{std::nextafter(nearest->t, infinity)};
+        });
+        return nearest;
+    }
+
+    template <class Counts>
+    bool any_hit(const Ray& ray, Counts& counts) const {
+        bool found = false;
+        search(ray, counts, [&](const Hit&) {
+            found = true;
+            return std::nan("");  // nothing is nearer than this, and nothing matters any more
+        });
+        return found;
+    }
+
+    TreeShape shape() const {
+        std::size_t leaves = 0;
+        double cost = 0.0;
+        nodes_.for_each_cell([&](std::uint32_t index, const Aabb& cell, std::size_t) {
+            const bool leaf = nodes_.nodes[index].is_leaf();
+            leaves += leaf;
+            const double tests = costs_.intersection * double(nodes_.own(index).size());
+            cost += cell.half_area() * ((leaf ? 0.0 : costs_.traversal) + tests);
+        });
+        const double whole = nodes_.box.half_area();
+        return {.nodes = leaves == 0 ? 0 : 2 * leaves - 1,
+                .leaves = leaves,
+                .depth = nodes_.depth,
+                .references = nodes_.references.size(),
+                .bytes = sizeof *this + nodes_.nodes.size() * sizeof(KdNode) +
+                         nodes_.references.size() * sizeof(std::uint32_t) +
+                         nodes_.kept.size() * sizeof(KdNodes<3>::Range) +
+                         triangles_.size() * sizeof(Triangle),
+                .sah_cost = whole > 0.0 ? std::optional(cost / whole) : std::nullopt};
+    }
+
+  private:
+    // [search]
+    /// Calls found(hit) for the hits of every triangle that is named where the ray passes; it
+    /// returns the t beyond which nothing matters any more.
+    template <class Counts, class Found>
+    void search(const Ray& ray, Counts& counts, const Found& found) const {
+        Mailbox mailbox(mailboxes_);
+        double limit = infinity;
+        walk_cells(nodes_, ray, counts, [&](std::uint32_t node) {
+            for (const std::uint32_t triangle : nodes_.own(node)) {
+                if (mailbox.remembers(triangle)) continue;
+                counts.test_triangle();
+                if (auto hit = Test::intersect(ray, triangles_[triangle])) {
+                    hit->triangle = triangle;
+                    limit = found(*hit);
+                }
+            }
+            return limit;
+        });
+    }
+    // [search]
+
+    std::vector<Triangle> triangles_;
+    KdNodes<3> nodes_;
+    SahCosts costs_;
+    bool mailboxes_ = true;
+};
+
+}  // namespace space
