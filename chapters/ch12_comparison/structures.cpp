@@ -24,11 +24,13 @@ std::vector<Structure> joined(std::vector<Home> homes) {
 // Each in structures/chNN.cpp.
 std::vector<Structure> ch01_structures();
 std::vector<Structure> ch03_structures();
+std::vector<Structure> ch04_structures();
 
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all = joined({
         {"chapter 1", ch01_structures()},
         {"chapter 3", ch03_structures()},
+        {"chapter 4", ch04_structures()},
     });
     return all;
 }
