@@ -20,7 +20,7 @@ struct ClippedPolygon {
     std::array<Double<D>, 28> corners;
     std::size_t size = 0;
 
-    void push_back(const Double<D>& corner) { corners[size++] = corner; }
+    void push_back(const Double<D>& corner) { corners.at(size++) = corner; }
 
     // [clipped]
     /// The part where sign * corner[axis] <= sign * position (Sutherland & Hodgman 1974).

@@ -32,6 +32,8 @@ struct KdTreeConfig {
         duplicate,  ///< both halves name them, wherever their bounding boxes reach
         clip,       ///< both halves name them, where the part in the cell reaches: perfect splits
         keep,       ///< the inner node names them
+        split,  ///< each half names its piece, cut from the parent's piece and rounded to float:
+                ///< what rounding takes away, rays lose
     };
 
     Rule rule = Rule::sah;
@@ -61,10 +63,13 @@ class KdBuilder {
   public:
     using Config = KdTreeConfig;
 
+    static constexpr std::uint32_t whole = ~0u;  ///< no piece
+
     /// A polygon, and the box of its part in a cell.
     struct Reference {
         std::uint32_t polygon;
         BasicAabb<D> box;
+        std::uint32_t piece = whole;  ///< where polygons are split, which one
     };
     /// Event: a node is cut, or is to be a leaf.
     struct Chosen {
@@ -224,8 +229,8 @@ class KdBuilder {
             } else if (config_.straddlers == Config::Straddlers::keep) {
                 kept.push_back(reference.polygon);
             } else {
-                add_part(children.below, reference);
-                add_part(children.above, reference);
+                add_part(children.below, reference, split, 1.0);
+                add_part(children.above, reference, split, -1.0);
                 count_references(1);
             }
         }
@@ -247,16 +252,43 @@ class KdBuilder {
                 {.node = node + 1, .depth = task.depth + 1, .cell = above}};
     }
 
+    // [add_part]
     /// The part of a straddler in the child's cell, if there is one.
-    void add_part(Task& child, const Reference& whole) {
-        BasicAabb<D> box{glm::max(whole.box.min, child.cell.min),
-                         glm::min(whole.box.max, child.cell.max)};
+    void add_part(Task& child, const Reference& straddler, const KdSplit& split, double sign) {
+        Reference part{straddler.polygon,
+                       {glm::max(straddler.box.min, child.cell.min),
+                        glm::min(straddler.box.max, child.cell.max)}};
         if (config_.straddlers == Config::Straddlers::clip)
-            box = clipped_bounds<D>(polygons_[whole.polygon], box);
-        if (box.is_empty()) return;
+            part.box = clipped_bounds<D>(polygons_[part.polygon], part.box);
+        if (config_.straddlers == Config::Straddlers::split) cut(part, straddler, split, sign);
+        if (part.box.is_empty()) return;
         if (sweeps())
-            add_events<D>(child.events, box, static_cast<std::uint32_t>(child.references.size()));
-        child.references.push_back({whole.polygon, box});
+            add_events<D>(child.events, part.box,
+                          static_cast<std::uint32_t>(child.references.size()));
+        child.references.push_back(part);
+    }
+    // [add_part]
+
+    /// Makes the piece on one side of the plane.
+    void cut(Reference& part, const Reference& straddler, const KdSplit& split, double sign) {
+        ClippedPolygon<D> polygon;
+        if (straddler.piece == whole)
+            for (int corner = 0; corner < D; ++corner)
+                polygon.push_back(Double<D>(polygons_[part.polygon][corner]));
+        else
+            for (const Point<D>& corner : pieces_[straddler.piece])
+                polygon.push_back(Double<D>(corner));
+        polygon = polygon.clipped(split.axis, split.position, sign);
+        part.piece = static_cast<std::uint32_t>(pieces_.size());
+        part.box = BasicAabb<D>::empty();
+        std::vector<Point<D>> piece;
+        for (std::size_t i = 0; i < polygon.size; ++i) {
+            const Point<D> corner(polygon.corners[i]);
+            if (!piece.empty() && corner == piece.back()) continue;
+            piece.push_back(corner);
+            part.box.extend(corner);
+        }
+        pieces_.push_back(std::move(piece));
     }
 
     /// Where a reference has gone as it is; nowhere where only parts of it have.
@@ -316,6 +348,7 @@ class KdBuilder {
     std::size_t max_depth_ = 0;
     std::size_t references_ = 0;  ///< in leaves, nodes and waiting tasks, but for lost parts
     std::size_t next_planned_ = 0;
+    std::vector<std::vector<Point<D>>> pieces_;  ///< corners
 };
 
 }  // namespace space
