@@ -154,7 +154,8 @@ struct TrueOrder {
     bool operator()(const Neighbour& a, const Neighbour& b) const {
         if (certainly_less<D>(a.squared_distance, b.squared_distance)) return true;
         if (certainly_less<D>(b.squared_distance, a.squared_distance)) return false;
-        return exactly(a.index, b.index);
+        const int order = exact_order(a, b);
+        return order != 0 ? order < 0 : tree.index(a.index) < tree.index(b.index);
     }
     /// From slots to the points' own indices.
     void name(std::span<Neighbour> neighbours) const {
@@ -162,11 +163,13 @@ struct TrueOrder {
     }
 
   private:
-    bool exactly(std::uint32_t a, std::uint32_t b) const {
-        const int sign = (exact_squared_distance<D>(query, tree.point(a)) -
-                          exact_squared_distance<D>(query, tree.point(b)))
-                             .sign();
-        return sign != 0 ? sign < 0 : tree.index(a) < tree.index(b);
+    /// Of two squared distances that are equal, or nearly so: -1, 0 or 1.
+    int exact_order(const Neighbour& a, const Neighbour& b) const {
+        const Point<D> p = tree.point(a.index), q = tree.point(b.index);
+        if (is_squared_distance_exact<D>(query, p) && is_squared_distance_exact<D>(query, q))
+            return (a.squared_distance > b.squared_distance) -
+                   (a.squared_distance < b.squared_distance);
+        return (exact_squared_distance<D>(query, p) - exact_squared_distance<D>(query, q)).sign();
     }
 };
 

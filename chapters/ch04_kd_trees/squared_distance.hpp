@@ -6,7 +6,7 @@
 #include "chapters/ch02_intersection_tests/expansion.hpp"
 #include "common/geometry.hpp"
 
-#include <cstddef>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -50,6 +50,23 @@ constexpr double squared_distance_bound = (distance_roundings<D> + 1) * 0x1p-53;
 template <int D>
 bool certainly_less(double a, double b) {
     return a * (1.0 + (2 * distance_roundings<D> + 2) * 0x1p-53) < b;
+}
+
+/// Whether squared_distance has rounded nothing, as on a grid: each difference is exact and fits a
+/// float, so that its square fits a double, and so does each sum.
+template <int D>
+bool is_squared_distance_exact(const Point<D>& p, const Point<D>& q) {
+    double sum = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+        const auto [d, low] = two_sum(p[axis], -static_cast<double>(q[axis]));
+        if (low != 0.0 || std::abs(d) > std::numeric_limits<float>::max() ||
+            static_cast<double>(static_cast<float>(d)) != d)
+            return false;
+        const auto [total, rest] = two_sum(sum, d * d);
+        if (rest != 0.0) return false;
+        sum = total;
+    }
+    return true;
 }
 
 /// Without any rounding.
