@@ -143,11 +143,10 @@ std::optional<KdSplit> best_split(const SplitEvents<D>& events, const BasicAabb<
                 ++of_kind[list[i].kind()];
             const std::size_t flat = of_kind[SplitEvent::flat];
             above -= of_kind[SplitEvent::end] + flat;
-            // At the cell's own ends a plane can only part what is flat from the rest.
-            const bool at_low = position <= cell.min[axis], at_high = position >= cell.max[axis];
-            const bool parts = (!at_low && !at_high) || (0 < flat && flat < all);
-            if (parts && !at_high) consider({axis, position, true}, below + flat, above);
-            if (parts && !at_low && flat > 0)
+            // At the cell's own ends a plane can only give what is flat a flat cell.
+            if (position < cell.max[axis] && (position > cell.min[axis] || flat > 0))
+                consider({axis, position, true}, below + flat, above);
+            if (position > cell.min[axis] && flat > 0)
                 consider({axis, position, false}, below, above + flat);
             below += of_kind[SplitEvent::start] + flat;
         }
