@@ -138,20 +138,6 @@ std::string page_title(const fs::path& file) {
     return match[1].str();
 }
 
-/// The .dox files of a chapter beside its chapter.dox, in the order in which that names their
-/// pages.
-std::vector<fs::path> further_pages(const Places& places, const Chapter& chapter) {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(places.root / "chapters" / chapter.folder))
-        if (entry.path().extension() == ".dox" && entry.path().filename() != "chapter.dox")
-            files.push_back(entry.path());
-    const std::string text = read_file(places.root / "chapters" / chapter.folder / "chapter.dox");
-    std::ranges::sort(files, {}, [&](const fs::path& file) {
-        return std::pair(text.find("\\ref " + *page_id(file)), file);
-    });
-    return files;
-}
-
 /// Raw HTML within a page. The block ends before an \endhtmlonly only.
 std::string raw(const std::string& markup) {
     return "\\htmlonly\n" + markup + "\\endhtmlonly\n\n";
@@ -249,7 +235,7 @@ std::string figures_page(const std::vector<Chapter>& chapters, const std::vector
         "own output, charts "
         "are "
         "drawn from measurements. One command makes figures again:\n\n    ./book figures "
-        "1.1 1.3\n    ./book figures 1.1 --dark\n\n"
+        "1.2 1.3\n    ./book figures 1.2 --dark\n\n"
         "A drawing is an SVG file that follows light and dark pages; with `--dark` or `--light` "
         "its "
         "colours are fixed, for slide programs. A chart comes with its data.\n\n";
@@ -378,7 +364,7 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
     for (const Chapter& chapter : chapters)
         if (const auto page = page_id(places, chapter)) {
             menu += tab(*page, fmt::format("{}. {}", chapter.number, chapter.title));
-            for (const fs::path& more : further_pages(places, chapter))
+            for (const fs::path& more : text_files(places.root, chapter) | std::views::drop(1))
                 menu +=
                     tab(*page_id(more), fmt::format("{}. {}", chapter.number, page_title(more)));
         }
@@ -434,6 +420,32 @@ std::string figure_aliases(const Places& places) {
                         figure.id, extension_of(figure), chapter, number, caption);
     }
     return lines;
+}
+
+std::vector<fs::path> text_files(const fs::path& root, const Chapter& chapter) {
+    const fs::path folder = root / "chapters" / chapter.folder, first = folder / "chapter.dox";
+    std::vector<fs::path> files{first};
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".dox" && entry.path() != first)
+            files.push_back(entry.path());
+    const std::string text = read_file(first);
+    std::ranges::sort(files | std::views::drop(1), {}, [&](const fs::path& file) {
+        return std::pair(text.find("\\ref " + *page_id(file)), file);
+    });
+    return files;
+}
+
+std::string figure_order_fault(int chapter, const std::string& text) {
+    const std::regex shown(fmt::format(R"([\\@]fig_{:02}_(\d\d)\b)", chapter));
+    int count = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), shown), end; at != end; ++at) {
+        const int number = std::stoi(at->str(1));
+        if (number > count + 1)
+            return fmt::format("Figure {0}.{1} is shown where Figure {0}.{2} is due", chapter,
+                               number, count + 1);
+        count = std::max(count, number);
+    }
+    return {};
 }
 
 std::string files_table(const fs::path& readme) {

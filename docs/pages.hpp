@@ -2,8 +2,11 @@
 /// The pages that nobody writes by hand: chapter table, exercises, figures, claims, and the menu.
 #pragma once
 
+#include "docs/ledger.hpp"
+
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace space::docs {
 
@@ -22,6 +25,15 @@ void write_pages(const Places& places);
 /// Settings for Doxygen: \\fig_01_03 in a page stands for that figure with its number and its
 /// caption, both from the register of figures.
 std::string figure_aliases(const Places& places);
+
+/// The chapter's .dox files as the menu lists them: chapter.dox, then the others in the order in
+/// which that names their pages. @pre chapter.dox is there
+std::vector<std::filesystem::path> text_files(const std::filesystem::path& root,
+                                              const Chapter& chapter);
+
+/// Figures of a chapter are numbered from 1 in the order in which its text shows them: what is
+/// wrong with that, or nothing. A figure that is shown again counts where it is shown first.
+std::string figure_order_fault(int chapter, const std::string& text);
 
 /// The table "| Read | for |" of a chapter's README.md for the chapter's page: names in place of
 /// links, and without the row of the page itself. @throws Error (bad_input) where there is none, or

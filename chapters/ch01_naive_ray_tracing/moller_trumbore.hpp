@@ -54,7 +54,7 @@ struct BasicMollerTrumbore {
 /// outside of the triangle (some 40 of a million rays along a shared edge), where a structure that
 /// knows the ray's place does not look, so over this test no structure can be proved to answer as
 /// the naive loop does; over chapter 2's FilteredExact it can. In float the test misses rays near
-/// the edges (figure 1.8; chapter 2 has more).
+/// the edges (figure 1.9; chapter 2 has more).
 using MollerTrumbore = BasicMollerTrumbore<double>;
 
 }  // namespace space

@@ -1,6 +1,6 @@
 /// Chapter 2: intersection tests and square roots, each with its cost and its error.
 ///     ch02_intersection_tests --out pictures
-///     ch02_intersection_tests --figure fig_02_11 --out figures
+///     ch02_intersection_tests --figure fig_02_04 --out figures
 #include "chapters/ch02_intersection_tests/measured/measurements.hpp"
 #include "chapters/ch02_intersection_tests/measured/outcome.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"

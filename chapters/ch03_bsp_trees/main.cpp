@@ -1,7 +1,7 @@
 /// Chapter 3: BSP trees with polygon splitting, by six choices of splitters and in four grades of
 /// care.
 ///     ch03_bsp_trees --out pictures
-///     ch03_bsp_trees --figure fig_03_01 --out figures
+///     ch03_bsp_trees --figure fig_03_02 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"

@@ -24,7 +24,7 @@ enum class ChartKind { lines, points, bars };
 /// Text is drawn as it stands, one line each. On a logarithmic axis, values that are not positive
 /// are left out; those that are not finite are left out everywhere. The CSV has them all.
 struct Chart {
-    std::string id = {};  ///< "fig_01_06"; a figure's caller sets it
+    std::string id = {};  ///< "fig_01_07"; a figure's caller sets it
     std::string title;    ///< alternative text
     std::string x_label, y_label;
     bool log_x = false, log_y = false;

@@ -3,6 +3,7 @@
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "docs/finish.hpp"
+#include "docs/ledger.hpp"
 #include "docs/search_text.hpp"
 #include "tests/catch.hpp"
 
@@ -107,4 +108,22 @@ TEST_CASE("a page's table of files is its README's, with names in place of links
     CHECK_THROWS_AS(files_table(readme), Error);
     write_file(readme, "# C\n| file | holds |\n");
     CHECK_THROWS_AS(files_table(readme), Error);
+}
+
+TEST_CASE("figures are numbered in the order in which the text shows them") {
+    CHECK(figure_order_fault(
+              3, "\\fig_03_01\n\\fig_02_09 and \\fig_03_02 \\fig_03_01\n\\fig_03_03") == "");
+    CHECK(figure_order_fault(3, "none, but Figure 3.2") == "");
+    CHECK(figure_order_fault(3, "\\fig_03_01 \\fig_03_03 \\fig_03_02") ==
+          "Figure 3.3 is shown where Figure 3.2 is due");
+    CHECK(figure_order_fault(12, "\\fig_12_02") == "Figure 12.2 is shown where Figure 12.1 is due");
+
+    const std::filesystem::path root = BOOK_ROOT;
+    for (const Chapter& chapter : read_chapters(root)) {
+        if (!exists(root / "chapters" / chapter.folder / "chapter.dox")) continue;
+        std::string text;
+        for (const auto& file : text_files(root, chapter)) text += read_file(file);
+        CAPTURE(chapter.folder);
+        CHECK(figure_order_fault(chapter.number, text) == "");
+    }
 }

@@ -5,15 +5,15 @@
 
 namespace space::ch01 {
 
-Chart fig_01_06(const Options& options) {
+Chart fig_01_07(const Options& options) {
     return growth_chart(measured_once<measure_growth>(options));
 }
 
-Chart fig_01_07(const Options& options) {
+Chart fig_01_08(const Options& options) {
     return share_chart(measured_once<measure_shares>(options));
 }
 
-Chart fig_01_08(const Options& options) {
+Chart fig_01_09(const Options& options) {
     return accuracy_chart(measured_once<measure_leaks>(options));
 }
 

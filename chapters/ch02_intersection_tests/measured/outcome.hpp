@@ -10,11 +10,11 @@
 namespace space::ch02 {
 
 Chart triangle_chart(
-    const Measurements& measured);  ///< fig_02_11: ns per test against leaks and wrong decisions
-Chart root_chart(const Measurements& measured);  ///< fig_02_12: ns per root against the worst error
-Chart box_chart(const Measurements& measured);   ///< fig_02_13: ns per test against boxes missed
+    const Measurements& measured);  ///< fig_02_04: ns per test against leaks and wrong decisions
+Chart box_chart(const Measurements& measured);  ///< fig_02_06: ns per test against boxes missed
 Chart sphere_chart(
-    const Measurements& measured);  ///< fig_02_14: wrong decisions against the distance, and ns
+    const Measurements& measured);  ///< fig_02_08: wrong decisions against the distance, and ns
+Chart root_chart(const Measurements& measured);  ///< fig_02_10: ns per root against the worst error
 
 /// The answers to L1 L2 L3 L4 L5 L8 L9 O4 O5 O12 O13 H15.
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);

@@ -5,20 +5,20 @@
 
 namespace space::ch03 {
 
-Chart fig_03_11(const Options& options) {
+Chart fig_03_09(const Options& options) {
     return fragments_chart(measured_once<measure_growth>(options));
 }
 
-Chart fig_03_12(const Options& options) {
+Chart fig_03_10(const Options& options) {
     return build_chart(measured_once<measure_growth>(options));
 }
 
-Chart fig_03_13(const Options& options) {
-    return grades_chart(measured_once<measure_grades>(options));
+Chart fig_03_11(const Options& options) {
+    return rays_chart(measured_once<measure_growth>(options));
 }
 
-Chart fig_03_14(const Options& options) {
-    return rays_chart(measured_once<measure_growth>(options));
+Chart fig_03_12(const Options& options) {
+    return grades_chart(measured_once<measure_grades>(options));
 }
 
 }  // namespace space::ch03

@@ -9,10 +9,10 @@
 
 namespace space::ch03 {
 
-Chart fragments_chart(const std::vector<Growth>& growth);   ///< fig_03_11
-Chart build_chart(const std::vector<Growth>& growth);       ///< fig_03_12
-Chart grades_chart(const std::vector<GradePoint>& grades);  ///< fig_03_13
-Chart rays_chart(const std::vector<Growth>& growth);        ///< fig_03_14
+Chart fragments_chart(const std::vector<Growth>& growth);   ///< fig_03_09
+Chart build_chart(const std::vector<Growth>& growth);       ///< fig_03_10
+Chart rays_chart(const std::vector<Growth>& growth);        ///< fig_03_11
+Chart grades_chart(const std::vector<GradePoint>& grades);  ///< fig_03_12
 
 /// H4, H5, H6, H7 and P3.
 std::vector<ClaimAnswer> answer_claims(const Measurements& measured);

@@ -1,0 +1,294 @@
+// The build of a BSP tree, step by step: what the builder told its observer becomes the steps of a
+// drawing, through which a page leads its reader.
+
+#include "chapters/ch03_bsp_trees/figures.hpp"
+#include "chapters/ch03_bsp_trees/figures/plane_view.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace space::ch03 {
+namespace {
+
+/// "C₂": for plain text.
+std::string plain(const Piece& piece) {
+    constexpr std::string_view digits[] = {"₁", "₂"};
+    std::string text = piece.name.substr(0, 1);
+    for (const char c : piece.name.substr(1)) text += digits[c - '1'];
+    return text;
+}
+std::string plain(const Story& story, std::span<const std::size_t> set) {
+    std::vector<std::string> names;
+    for (const std::size_t piece : set) names.push_back(plain(story.pieces[piece]));
+    return fmt::format("{{{}}}", fmt::join(names, ", "));
+}
+
+/// The page's steps of one turn of the builder.
+struct Steps {
+    int chosen, first_cut, placed;  ///< one node alone: all the same
+};
+
+/// What a step is about.
+struct Step {
+    std::size_t turn;  ///< of the builder; none at the start and at the end
+    bool placed;       ///< the sets are made
+    std::string tells;
+};
+
+struct Script {
+    std::vector<Step> steps;
+    std::vector<Steps> of_turn;
+};
+
+Script script_of(const Story& story) {
+    const std::size_t none = story.turns.size();
+    Script script;
+    script.steps.push_back(
+        {none, false,
+         fmt::format("{} segments; the ticks mark their fronts. The builder has one set of them, "
+                     "and no node.",
+                     story.tree.polygons.size())});
+    for (std::size_t i = 0; i < story.turns.size(); ++i) {
+        const Turn& turn = story.turns[i];
+        const std::string splitter = plain(story.pieces[turn.own.front()]);
+        std::string set = plain(story, turn.set);
+        if (turn.parent != BspTree<2>::none)
+            set += fmt::format(", {} {},", turn.in_front ? "in front of" : "behind",
+                               plain(story.pieces[story.turns[turn.parent].own.front()]));
+        const auto now = [&] { return static_cast<int>(script.steps.size()); };
+        if (turn.set.size() == 1) {
+            script.of_turn.push_back({now(), now(), now()});
+            script.steps.push_back(
+                {i, true,
+                 fmt::format("The set {} becomes a node without children. Its line parts two "
+                             "empty cells.",
+                             set)});
+            continue;
+        }
+        Steps steps{now(), now() + 1, now() + 1 + static_cast<int>(turn.cuts.size())};
+        script.steps.push_back({i, false,
+                                fmt::format("The set {} gets the splitter {}. Its line runs "
+                                            "through the coloured part of the plane "
+                                            "only.",
+                                            set, splitter)});
+        for (const Turn::Cut& cut : turn.cuts)
+            script.steps.push_back(
+                {i, false,
+                 fmt::format(
+                     "{0} lies across the line of {1} and is cut: {2} is in front of it, {3} "
+                     "behind.",
+                     plain(story.pieces[cut.whole]), splitter, plain(story.pieces[cut.front]),
+                     plain(story.pieces[cut.back]))});
+        const auto side = [&](const std::vector<std::size_t>& part) {
+            return part.empty() ? std::string("nothing") : plain(story, part);
+        };
+        script.steps.push_back(
+            {i, true,
+             fmt::format("In front of {}: {}. Behind it: {}. {} itself stays in the node.",
+                         splitter, side(turn.front), side(turn.back), splitter)});
+        script.of_turn.push_back(steps);
+    }
+    script.steps.push_back(
+        {none, true,
+         fmt::format("No set is left. The tree has {} nodes for {} segments, since one was cut, "
+                     "and {} empty "
+                     "cells at its bottom.",
+                     story.turns.size(), story.tree.polygons.size(), story.cells.size())});
+    return script;
+}
+
+bool holds(const std::vector<std::size_t>& set, std::size_t piece) {
+    return std::ranges::find(set, piece) != set.end();
+}
+
+/// What colour a piece has in a step.
+Ink ink_of(const Story& story, const Step& step, std::size_t piece) {
+    if (step.turn == story.turns.size()) return Ink::ink;
+    const Turn& turn = story.turns[step.turn];
+    if (holds(turn.own, piece)) return Ink::green;
+    if (step.placed)
+        return holds(turn.front, piece)  ? Ink::blue
+               : holds(turn.back, piece) ? Ink::vermillion
+                                         : Ink::quiet;
+    const bool part = std::ranges::any_of(
+        turn.cuts, [&](const Turn::Cut& cut) { return cut.front == piece || cut.back == piece; });
+    return part || holds(turn.set, piece) ? Ink::ink : Ink::quiet;
+}
+
+/// The story, its script, and where its parts stand on the paper.
+struct Stage {
+    Story story = heinonen_story();
+    Script script = script_of(story);
+    TreeLayout layout = layout_of(story);
+    int last = static_cast<int>(script.steps.size()) - 1;
+    PlaneView view{.corner = {8, 10}, .scale = 21, .size = heinonen_size};
+
+    const Step& step(int k) const { return script.steps[static_cast<std::size_t>(k)]; }
+    Point2 place(const Double2& p) const { return at(362 + 34 * p.x, 32 + 74 * p.y); }
+    /// What shows in step k only; at the end in the last one.
+    void begin(Svg& svg, int k, std::string_view tells = {}) const {
+        svg.begin_step(k, k == last ? std::optional<int>() : k, tells);
+    }
+};
+
+/// The part of the plane that a step is about, and what the page tells.
+void draw_regions(Svg& svg, const Stage& stage) {
+    for (int k = 0; k <= stage.last; ++k) {
+        const Step& step = stage.step(k);
+        stage.begin(svg, k, step.tells);
+        if (k == stage.last)
+            for (std::size_t i = 0; i < stage.story.cells.size(); ++i)
+                svg.polygon(stage.view(stage.story.cells[i].cell), cell_style(stage.story, i));
+        if (step.turn < stage.story.turns.size()) {
+            const ConvexCell& cell = stage.story.turns[step.turn].cell;
+            const auto& line = stage.story.tree.planes[stage.story.tree.nodes[step.turn].plane];
+            if (step.placed) {
+                svg.polygon(stage.view(part_of(cell, line, true)),
+                            {.stroke = {}, .fill = Ink::sky, .opacity = 0.4});
+                svg.polygon(stage.view(part_of(cell, line, false)),
+                            {.stroke = {}, .fill = Ink::orange, .opacity = 0.4});
+            } else {
+                svg.polygon(stage.view(cell), {.stroke = {}, .fill = Ink::green, .opacity = 0.2});
+            }
+        }
+        svg.end_group();
+    }
+}
+
+/// Lines stay from the step in which they are chosen.
+void draw_lines(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
+        const auto [from, to] = line_in_cell(stage.story, i);
+        const bool alone = stage.story.turns[i].set.size() == 1;
+        const Steps& steps = stage.script.of_turn[i];
+        svg.begin_step(steps.chosen, steps.placed);
+        svg.line(stage.view(from), stage.view(to), {.stroke = Ink::green});
+        svg.end_group();
+        svg.begin_step(steps.placed + 1);
+        svg.line(stage.view(from), stage.view(to),
+                 {.stroke = alone ? Ink::quiet : Ink::blue, .dashed = alone});
+        svg.end_group();
+    }
+}
+
+/// Pieces, in the step's colours: whole until they are cut.
+void draw_pieces(Svg& svg, const Stage& stage) {
+    std::vector<std::pair<int, int>> lives(stage.story.pieces.size(), {0, stage.last});
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i)
+        for (std::size_t c = 0; c < stage.story.turns[i].cuts.size(); ++c) {
+            const Turn::Cut& cut = stage.story.turns[i].cuts[c];
+            const int step = stage.script.of_turn[i].first_cut + static_cast<int>(c);
+            lives[cut.whole].second = step - 1;
+            lives[cut.front].first = lives[cut.back].first = step;
+        }
+    for (int k = 0; k <= stage.last; ++k) {
+        stage.begin(svg, k);
+        const Step& step = stage.step(k);
+        for (std::size_t i = 0; i < stage.story.pieces.size(); ++i) {
+            if (k < lives[i].first || k > lives[i].second) continue;
+            const Piece& piece = stage.story.pieces[i];
+            const Ink ink = ink_of(stage.story, step, i);
+            draw_segment(svg, stage.view, piece.from, piece.to, {.stroke = {}, .fill = ink});
+            draw_front_tick(svg, stage.view, piece.from, piece.to, ink);
+            svg.text(heinonen_name_place(stage.view, piece), written(piece),
+                     {.ink = ink, .size = 24, .halo = true});
+        }
+        if (step.turn < stage.story.turns.size())
+            for (std::size_t c = 0; c < stage.story.turns[step.turn].cuts.size(); ++c)
+                if (stage.script.of_turn[step.turn].first_cut + static_cast<int>(c) <= k)
+                    svg.circle(
+                        stage.view(cut_point(stage.story, stage.story.turns[step.turn].cuts[c])), 5,
+                        {.fill = Ink::vermillion});
+        svg.end_group();
+    }
+}
+
+/// Sets wait where their nodes will be.
+void draw_waiting_sets(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
+        const Turn& turn = stage.story.turns[i];
+        const Steps& steps = stage.script.of_turn[i];
+        const Point2 centre = stage.place(stage.layout.nodes[i]);
+        if (turn.parent != BspTree<2>::none) {
+            const Point2 parent = stage.place(stage.layout.nodes[turn.parent]);
+            svg.begin_step(stage.script.of_turn[turn.parent].placed);
+            svg.line(parent, centre, {.stroke = turn.in_front ? Ink::blue : Ink::vermillion});
+            svg.end_group();
+        }
+        if (steps.chosen > 0) {
+            const int waits_from =
+                turn.parent == BspTree<2>::none ? 0 : stage.script.of_turn[turn.parent].placed;
+            svg.begin_step(waits_from, steps.chosen - 1);
+            svg.text(moved(centre, 0, 16), written(stage.story, turn.set),
+                     {.size = 20, .halo = true});
+            svg.end_group();
+        }
+    }
+}
+
+/// The empty cells at the bottom of the tree, numbered at the end.
+void draw_cells(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.cells.size(); ++i) {
+        const Point2 from = stage.place(stage.layout.nodes[stage.story.cells[i].node]),
+                     to = stage.place(stage.layout.cells[i]);
+        svg.begin_step(stage.script.of_turn[stage.story.cells[i].node].placed);
+        svg.line(from, to, {.stroke = Ink::quiet, .dashed = true});
+        svg.rect(moved(to, -14, -14), at(28, 28), {.stroke = Ink::quiet, .fill = Ink::paper});
+        svg.end_group();
+        svg.begin_step(stage.last);
+        Style style = cell_style(stage.story, i);
+        style.stroke = Ink::quiet;
+        svg.rect(moved(to, -14, -14), at(28, 28), style);
+        svg.text(moved(to, 0, 6), fmt::format("{}", i + 1), {.size = 18});
+        svg.text(moved(stage.view(stage.story.cells[i].place), 0, 6), fmt::format("{}", i + 1),
+                 {.ink = Ink::quiet, .size = 18});
+        svg.end_group();
+    }
+}
+
+/// Nodes stay from the step in which their splitters are chosen.
+void draw_nodes(Svg& svg, const Stage& stage) {
+    for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
+        const Turn& turn = stage.story.turns[i];
+        const Steps& steps = stage.script.of_turn[i];
+        const Point2 centre = stage.place(stage.layout.nodes[i]);
+        const auto node = [&](Ink ink) {
+            svg.circle(centre, 20, {.stroke = ink, .fill = Ink::paper});
+            svg.text(moved(centre, 0, 8), written(stage.story.pieces[turn.own.front()]),
+                     {.ink = ink, .size = 24});
+        };
+        svg.begin_step(steps.chosen, steps.placed);
+        node(Ink::green);
+        svg.end_group();
+        svg.begin_step(steps.placed + 1);
+        node(Ink::ink);
+        svg.end_group();
+    }
+}
+
+}  // namespace
+
+Svg fig_03_13(const Options&) {
+    const Stage stage;
+    Svg svg("The segments A to G and the tree that the builder has made of them, step by step", 676,
+            356);
+    draw_regions(svg, stage);
+    svg.rect(stage.view({0, heinonen_size}),
+             at(stage.view.scale * stage.view.size, stage.view.scale * stage.view.size),
+             {.stroke = Ink::quiet});
+    draw_lines(svg, stage);
+    draw_pieces(svg, stage);
+    draw_waiting_sets(svg, stage);
+    draw_cells(svg, stage);
+    draw_nodes(svg, stage);
+    return svg;
+}
+
+}  // namespace space::ch03
