@@ -108,6 +108,15 @@ whenPrinting(() => {
   DoxygenAwesomeDarkModeToggle.enableDarkMode(false);
 }, () => DoxygenAwesomeDarkModeToggle.enableDarkMode(darkBefore));
 
+// Of several lists of steps the one whose drawing and sentences are nearest to the middle of the window.
+function inTheMiddle(lists) {
+  const away = (list) => {
+    const { top, bottom } = list.parentElement.getBoundingClientRect();
+    return Math.abs((top + bottom) / 2 - window.innerHeight / 2);
+  };
+  return lists.reduce((best, list) => (away(list) < away(best) ? list : best));
+}
+
 // A drawing with steps (Svg::begin_step): its list of steps shows one at a time, with the groups of that step.
 function stepThrough(list) {
   const drawing = list.previousElementSibling, items = [...list.children], last = items.length - 1;
@@ -149,9 +158,12 @@ function stepThrough(list) {
   document.addEventListener("keydown", (event) => {
     const moves = { ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last };
     if (!(event.key in moves) || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
-    // Of several the one that has the focus; a single one on its page always listens, but leaves Home and End to the page.
-    const inside = bar.parentElement.contains(document.activeElement), alone = document.querySelectorAll("ol.steps").length === 1;
-    if (!inside && (!alone || event.key.length < 5 || document.activeElement.matches("input, textarea, .scroll, .fragment"))) return;
+    // It listens if it has the focus; if none has, the one nearest to the window's middle does, but leaves Home and End to
+    // the page.
+    const lists = [...document.querySelectorAll("ol.steps")], active = document.activeElement;
+    const focused = lists.find((other) => other.parentElement.contains(active));
+    if ((focused ?? inTheMiddle(lists)) !== list) return;
+    if (!focused && (event.key.length < 5 || active.matches("input, textarea, .scroll, .fragment"))) return;
     show(moves[event.key]);
     event.preventDefault();
   });

@@ -6,6 +6,7 @@
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch03_bsp_trees/bsp_builder.hpp"
 #include "common/accelerator.hpp"
+#include "common/observer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,14 +48,35 @@ PlaneCrossing cross_plane(const BasicRay<D>& ray, const SplitPlane<D>& plane, do
 }
 // [cross_plane]
 
+/// Events of a ray's walk through a tree.
+struct BspWalk {
+    /// The ray is in a node's cell from t = enter to t = leave, and this is how it meets the plane.
+    struct Visited {
+        std::uint32_t node;
+        double enter, leave;
+        PlaneCrossing crossing;
+    };
+    /// It has come to the plane of a node, what lies there has been tested, and it goes on behind
+    /// the plane.
+    struct Crossed {
+        std::uint32_t node;
+        double enter, leave;
+    };
+    /// The plane of a node and what is behind it: farther than what has been hit.
+    struct Dropped {
+        std::uint32_t node;
+        double enter, leave;
+    };
+};
+
 // [front_to_back]
 /// Walks the cells along the ray, from its origin on, and calls cross(node) for every node whose
 /// plane the ray crosses within the node's cell: after all that lies before the plane, before all
 /// that lies behind it. cross returns the t beyond which nothing matters any more (NaN: nothing at
 /// all). The stack is our own: a tree may be deeper than the machine's stack.
-template <int D, class Counts, class Cross>
+template <int D, class Counts, class Cross, class Observer = NoObserver>
 void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& counts,
-                   const Cross& cross) {
+                   const Cross& cross, Observer&& observer = {}) {
     if (!is_valid(ray) || tree.nodes.empty()) return;
     struct Task {
         std::uint32_t crossed;  ///< the node whose plane comes next; none before the first
@@ -68,12 +90,19 @@ void front_to_back(const BspTree<D>& tree, const BasicRay<D>& ray, Counts& count
     while (!tasks.empty()) {
         auto [crossed, index, enter, leave] = tasks.back();
         tasks.pop_back();
-        if (!(enter <= limit)) continue;
-        if (crossed != BspTree<D>::none) limit = cross(tree.nodes[crossed]);
+        if (!(enter <= limit)) {
+            observer.observe(BspWalk::Dropped{crossed, enter, leave});
+            continue;
+        }
+        if (crossed != BspTree<D>::none) {
+            limit = cross(tree.nodes[crossed]);
+            observer.observe(BspWalk::Crossed{crossed, enter, leave});
+        }
         while (index != BspTree<D>::none) {
             const auto& node = tree.nodes[index];
             counts.visit_node();
             const PlaneCrossing crossing = cross_plane(ray, tree.planes[node.plane], enter, leave);
+            observer.observe(BspWalk::Visited{index, enter, leave, crossing});
             const std::uint32_t near = crossing.starts_in_front ? node.front : node.back;
             const std::uint32_t far = crossing.starts_in_front ? node.back : node.front;
             if (crossing.latest < enter) {

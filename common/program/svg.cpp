@@ -296,6 +296,11 @@ void Svg::begin_step(int first, std::optional<int> last, std::string_view tells)
     ++open_groups_;
 }
 
+void Svg::begin_step_alone(std::size_t step, std::size_t steps, std::string_view tells) {
+    const int only = static_cast<int>(step);
+    begin_step(only, step + 1 == steps ? std::optional<int>() : only, tells);
+}
+
 void Svg::end_group() {
     if (open_groups_-- == 0) throw std::logic_error("svg: end_group without begin_group");
     body_ += "</g>\n";

@@ -82,6 +82,8 @@ class Svg {
     /// to the end) and `tells`, if not empty, at step `first`. Where no script runs, what is there
     /// at the end shows. Steps may not stand in steps.
     void begin_step(int first, std::optional<int> last = {}, std::string_view tells = {});
+    /// What shows in this one of `steps` steps alone; where no script runs, the last one's.
+    void begin_step_alone(std::size_t step, std::size_t steps, std::string_view tells = {});
     void end_group();
     /// Pixels as an embedded PNG; drawn twice as large or larger, as squares with sharp sides.
     void picture(Point2 corner, Vector2 size, const Image& image, std::string_view id = {});

@@ -262,32 +262,36 @@ for name in (name for name in book if name.startswith("ch")):
         fault(name, "is not dark again after printing")
 
 # Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
-# out; without scripts, the last step's drawing stands and all sentences.
+# out; without scripts, the last step's drawing stands and all sentences. Keys move the drawing in view, and no other.
 state = """
-    const list = document.querySelector("ol.steps"), drawing = list.previousElementSibling.previousElementSibling;
-    const seen = (element) => getComputedStyle(element).visibility === "visible";
+    const list = document.querySelectorAll("ol.steps")[NUMBER], bar = list.previousElementSibling;
+    const drawing = bar.previousElementSibling, seen = (element) => getComputedStyle(element).visibility === "visible";
     return {tells: [...list.children].filter(seen).map((item) => item.textContent),
             groups: [...drawing.querySelectorAll("[data-first]")].map((group) => group.getAttribute("display") !== "none"),
-            buttons: [...document.querySelectorAll(".step-bar button")].map((button) => !button.disabled),
-            count: document.querySelector(".step-bar output").textContent,
+            buttons: [...bar.querySelectorAll("button")].map((button) => !button.disabled),
+            count: bar.querySelector("output").textContent,
             height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top};"""
 static = """
-    const list = document.querySelector("ol.steps"), drawing = list.previousElementSibling;
+    const list = document.querySelectorAll("ol.steps")[NUMBER], drawing = list.previousElementSibling;
     return {tells: list.children.length, bar: !!document.querySelector(".step-bar"),
             shown: [...drawing.querySelectorAll("[data-first]")].map((group) => getComputedStyle(group).display !== "none"),
             lasts: [...drawing.querySelectorAll("[data-first]")].map((group) => group.dataset.last === undefined)};"""
+to_the_middle = """
+    document.activeElement.blur();
+    document.querySelectorAll("ol.steps")[NUMBER].parentElement.scrollIntoView({block: "center", behavior: "instant"});"""
 steps_walked = 0
-for name in (name for name in book if '<ol class="steps">' in (site / name).read_text()):
-    markup = (site / name).read_text()
-    groups = [(int(first), int(last) if last else None)
-              for first, last in re.findall(r'<g data-first="(\d+)"(?: data-last="(\d+)")?', markup)]
-    tells = re.findall(r"<li>(.*?)</li>", markup[markup.index('<ol class="steps">'):].split("</ol>")[0])
+
+
+def walk_steps(name, number, groups, tells):
+    """The drawing of that number on its page: the groups with their first and last steps, and what each step tells."""
+    global steps_walked
     last = len(tells) - 1
+    script = lambda text: run(text.replace("NUMBER", str(number)))
     if last < 1 or any(first > last or (end is not None and end < first) for first, end in groups):
         fault(name, f"a drawing's steps are none: {groups}")
 
     def look(step, how):
-        now = run(state)
+        now = script(state)
         expected = [first <= step and (end is None or step <= end) for first, end in groups]
         if now["groups"] != expected:
             fault(name, f"step {step} by {how} shows other groups than its own")
@@ -300,7 +304,8 @@ for name in (name for name in book if '<ol class="steps">' in (site / name).read
     for width, mode in ((1280, "light"), (390, "dark")):
         window(width, mode)
         open_page(name)
-        first, back, forth, end = chromium.find_elements(By.CSS_SELECTOR, ".step-bar button")
+        bar = chromium.find_elements(By.CSS_SELECTOR, ".step-bar")[number]
+        first, back, forth, end = bar.find_elements(By.TAG_NAME, "button")
         places = {look(0, "loading")}
         for step in range(1, last + 1):
             forth.click()
@@ -315,19 +320,33 @@ for name in (name for name in book if '<ol class="steps">' in (site / name).read
         look(last, "Last")
         first.click()
         look(0, "First")
+        script(to_the_middle)
         body = chromium.find_element(By.TAG_NAME, "body")
         for key, step in ((Keys.ARROW_RIGHT, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
             body.send_keys(key)
             look(step, "arrow key")
+        counts = run("return [...document.querySelectorAll('.step-bar output')].map((output) => output.textContent[0])")
+        if counts != ["2" if i == number else "1" for i in range(len(counts))]:
+            fault(name, f"keys move another drawing than number {number}, which is in the middle: {counts}")
         if max(places) - min(places) > 1:
             fault(name, f"at {width} px the page below jumps from step to step: {sorted(places)}")
         look_at_logs(name)
     chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=True))
     chromium.get((site / name).as_uri())
-    still = run(static)
+    still = script(static)
     chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
     if still["bar"] or still["tells"] != last + 1 or still["shown"] != still["lasts"]:
         fault(name, f"without scripts its drawing is not the last step's: {still}")
+
+
+for name in book:
+    parts = (site / name).read_text().split('<ol class="steps">')
+    for number in range(len(parts) - 1):
+        drawing = parts[number][parts[number].rindex("<svg "):]
+        walk_steps(name, number,
+                   [(int(first), int(last) if last else None)
+                    for first, last in re.findall(r'<g data-first="(\d+)"(?: data-last="(\d+)")?', drawing)],
+                   re.findall(r"<li>(.*?)</li>", parts[number + 1].split("</ol>")[0]))
 if "ch03_step_by_step.html" in book and not steps_walked:
     fault("ch03_step_by_step.html", "has no steps")
 

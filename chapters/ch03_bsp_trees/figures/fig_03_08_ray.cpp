@@ -1,28 +1,17 @@
-#include "chapters/ch03_bsp_trees/bsp.hpp"
 #include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/plane_view.hpp"
+#include "chapters/ch03_bsp_trees/figures/recorded_walk.hpp"
 #include "common/random.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <variant>
 #include <vector>
 
 namespace space::ch03 {
 namespace {
-
-/// Where the ray meets a segment, in double; infinity where it does not.
-double distance_along(const BasicRay<2>& ray, const Segment& segment) {
-    const Double2 o(ray.origin), d(ray.direction), a(segment[0]), way = Double2(segment[1]) - a;
-    const double turn = d.x * way.y - d.y * way.x;
-    if (turn == 0.0) return infinity;
-    const Double2 from = a - o;
-    const double t = (from.x * way.y - from.y * way.x) / turn,
-                 s = (from.x * d.y - from.y * d.x) / turn;
-    return t >= 0.0 && s >= 0.0 && s <= 1.0 ? t : double{infinity};
-}
 
 /// Whether the way from `from` to `to` passes through a convex cell.
 bool passes(const ConvexCell& cell, const Double2& from, const Double2& to) {
@@ -62,40 +51,25 @@ std::vector<Segment> scattered_segments() {
 /// What the ray did on its way from `start` to its hit.
 struct Walk {
     Double2 start, end;
-    std::vector<std::size_t> crossed = {}, tested = {};  ///< nodes; fragments
-    std::vector<bool> was_visited = {};                  ///< of each node
-    std::size_t visited = 0;
+    std::vector<std::size_t> visited = {}, crossed = {};  ///< nodes
 };
 
 bool is_in(const std::vector<std::size_t>& list, std::size_t i) {
     return std::ranges::find(list, i) != list.end();
 }
 
-Walk walk_of(const BasicRay<2>& ray, const Story& story) {
+Walk walk_of(const BasicRay<2>& ray, const BspTree<2>& tree) {
     Walk walk{.start = Double2(ray.origin), .end = {}};
     double nearest = infinity;
-    TraversalCounts counts;
-    front_to_back(story.tree, ray, counts, [&](const BspTree<2>::Node& node) {
-        walk.crossed.push_back(static_cast<std::size_t>(&node - story.tree.nodes.data()));
-        for (std::uint32_t i = 0; i < node.count; ++i) {
-            walk.tested.push_back(node.first + i);
-            nearest = std::min(
-                nearest,
-                distance_along(
-                    ray, story.tree.polygons[story.tree.fragments[walk.tested.back()].polygon]));
+    for (const WalkEvent& event : watched_walk(tree, ray)) {
+        if (const auto* visited = std::get_if<BspWalk::Visited>(&event))
+            walk.visited.push_back(visited->node);
+        if (const auto* crossed = std::get_if<BspWalk::Crossed>(&event)) {
+            walk.crossed.push_back(crossed->node);
+            nearest = std::min(nearest, hit_in(tree, crossed->node, ray));
         }
-        return nearest;
-    });
-    walk.end = walk.start + nearest * Double2(ray.direction);
-    for (const Turn& turn : story.turns) {
-        // Up to just beyond the hit: what touches the hit segment there may have the smaller index.
-        walk.was_visited.push_back(
-            passes(turn.cell, walk.start, walk.end + 1e-9 * (walk.end - walk.start)));
-        walk.visited += walk.was_visited.back();
     }
-    if (walk.visited != counts.nodes_visited)
-        throw std::logic_error(fmt::format("a ray: {} nodes seem visited, {} were", walk.visited,
-                                           counts.nodes_visited));
+    walk.end = walk.start + nearest * Double2(ray.direction);
     return walk;
 }
 
@@ -110,11 +84,12 @@ void draw_plane(Svg& svg, const Story& story, const Walk& walk) {
             const auto [from, to] = line_in_cell(story, i);
             svg.line(view(from), view(to), {.stroke = second ? Ink::blue : Ink::faint});
         }
-    for (std::size_t i = 0; i < story.tree.fragments.size(); ++i) {
-        const Piece& piece = story.pieces[story.fragment_pieces[i]];
-        draw_segment(svg, view, piece.from, piece.to,
-                     {.stroke = {}, .fill = is_in(walk.tested, i) ? Ink::green : Ink::ink});
-    }
+    for (std::size_t node = 0; node < story.turns.size(); ++node)
+        for (const std::size_t own : story.turns[node].own) {
+            const Piece& piece = story.pieces[own];
+            draw_segment(svg, view, piece.from, piece.to,
+                         {.stroke = {}, .fill = is_in(walk.crossed, node) ? Ink::green : Ink::ink});
+        }
     svg.rect(view({0, height}), at(24 * width, 24 * height), {.stroke = Ink::quiet});
     svg.line(view(walk.start), view(walk.end), {.stroke = Ink::vermillion, .arrow = true}, "ray");
     svg.circle(view(walk.start), 5, {.stroke = {}, .fill = Ink::vermillion});
@@ -129,26 +104,27 @@ void draw_tree(Svg& svg, const Story& story, const TreeLayout& layout, const Wal
     for (std::size_t i = 0; i < story.turns.size(); ++i)
         if (story.turns[i].parent != BspTree<2>::none)
             svg.line(place(layout.nodes[story.turns[i].parent]), place(layout.nodes[i]),
-                     {.stroke = walk.was_visited[i] ? Ink::ink : Ink::faint});
+                     {.stroke = is_in(walk.visited, i) ? Ink::ink : Ink::faint});
     for (std::size_t i = 0; i < story.turns.size(); ++i) {
         const bool both = is_in(walk.crossed, i);
         svg.circle(place(layout.nodes[i]), 6.5,
-                   {.stroke = both                  ? Ink::blue
-                              : walk.was_visited[i] ? Ink::ink
-                                                    : Ink::faint,
+                   {.stroke = both                     ? Ink::blue
+                              : is_in(walk.visited, i) ? Ink::ink
+                                                       : Ink::faint,
                     .fill = both ? Ink::blue : Ink::paper});
     }
 }
 
-void draw_legend(Svg& svg, double bottom, const Walk& walk) {
+void draw_legend(Svg& svg, double bottom, const Walk& walk, std::size_t nodes) {
     svg.circle(at(18, bottom - 6), 6.5, {.stroke = Ink::blue, .fill = Ink::blue});
     svg.text(at(34, bottom), fmt::format("{} crossed: both children", walk.crossed.size()),
              {.anchor = Anchor::start, .size = 17});
     svg.circle(at(278, bottom - 6), 6.5, {.stroke = Ink::ink, .fill = Ink::paper});
-    svg.text(at(294, bottom), fmt::format("{} one child", walk.visited - walk.crossed.size()),
+    svg.text(at(294, bottom),
+             fmt::format("{} one child", walk.visited.size() - walk.crossed.size()),
              {.anchor = Anchor::start, .size = 17});
     svg.circle(at(438, bottom - 6), 6.5, {.stroke = Ink::faint, .fill = Ink::paper});
-    svg.text(at(454, bottom), fmt::format("{} not visited", walk.was_visited.size() - walk.visited),
+    svg.text(at(454, bottom), fmt::format("{} not visited", nodes - walk.visited.size()),
              {.anchor = Anchor::start, .size = 17});
 }
 
@@ -160,7 +136,7 @@ Svg fig_03_08(const Options&) {
                       {.splitter = BspConfig::SplitterChoice::weighted, .split_weight = 3.0},
                       {{0, 0}, {width, 0}, {width, height}, {0, height}});
     const BasicRay<2> ray{.origin = {0.7f, 11.5f}, .direction = {1.0f, -0.4f}};
-    const Walk walk = walk_of(ray, story);
+    const Walk walk = walk_of(ray, story.tree);
     const TreeLayout layout = layout_of(story);
     Svg svg(
         "A ray walks a BSP tree front to back: both children only where it crosses a node's "
@@ -168,7 +144,8 @@ Svg fig_03_08(const Options&) {
         640, 24 + 312 + 60 + row * static_cast<double>(layout.levels - 1));
     draw_plane(svg, story, walk);
     draw_tree(svg, story, layout, walk);
-    draw_legend(svg, 356 + row * static_cast<double>(layout.levels - 1) + 24, walk);
+    draw_legend(svg, 356 + row * static_cast<double>(layout.levels - 1) + 24, walk,
+                story.turns.size());
     return svg;
 }
 

@@ -17,12 +17,9 @@
 namespace space::ch03 {
 namespace {
 
-/// "C₂": for plain text.
+/// For plain text.
 std::string plain(const Piece& piece) {
-    constexpr std::string_view digits[] = {"₁", "₂"};
-    std::string text = piece.name.substr(0, 1);
-    for (const char c : piece.name.substr(1)) text += digits[c - '1'];
-    return text;
+    return plain_name(piece.name);
 }
 std::string plain(const Story& story, std::span<const std::size_t> set) {
     std::vector<std::string> names;
@@ -134,7 +131,7 @@ struct Stage {
     Point2 place(const Double2& p) const { return at(362 + 34 * p.x, 32 + 74 * p.y); }
     /// What shows in step k only; at the end in the last one.
     void begin(Svg& svg, int k, std::string_view tells = {}) const {
-        svg.begin_step(k, k == last ? std::optional<int>() : k, tells);
+        svg.begin_step_alone(static_cast<std::size_t>(k), script.steps.size(), tells);
     }
 };
 

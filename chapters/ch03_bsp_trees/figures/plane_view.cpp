@@ -4,12 +4,6 @@
 
 namespace space::ch03 {
 
-std::vector<Point2> PlaneView::operator()(const ConvexCell& cell) const {
-    std::vector<Point2> points;
-    for (const Double2& p : cell) points.push_back((*this)(p));
-    return points;
-}
-
 Style cell_style(const Story& story, std::size_t cell) {
     // Cells in front of the root's splitter in one colour, those behind it in another.
     std::uint32_t node = story.cells[cell].node;
@@ -23,28 +17,8 @@ Style cell_style(const Story& story, std::size_t cell) {
         .stroke = {}, .fill = in_front ? Ink::sky : Ink::orange, .opacity = opacities[cell % 5]};
 }
 
-void draw_segment(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to,
-                  const Style& style) {
-    const Point2 a = view(from), b = view(to);
-    const Vector2 along = glm::normalize(b - a), across = 2.2f * Vector2(-along.y, along.x);
-    svg.polygon({a + across, b + across, b - across, a - across}, style);
-}
-
-Point2 beside(const PlaneView& view, const Double2& from, const Double2& to, double along,
-              double away) {
-    const Double2 way = glm::normalize(to - from), front(-way.y, way.x);
-    return view(from + along * (to - from) + away / view.scale * front);
-}
-
-void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to,
-                     Ink ink) {
-    svg.line(beside(view, from, to, 0.5, 0.0), beside(view, from, to, 0.5, 11.0), {.stroke = ink});
-}
-
 Point2 heinonen_name_place(const PlaneView& view, const Piece& piece) {
-    const char letter = piece.name.front();
-    const double away = letter == 'B' || letter == 'G' ? -21.0 : letter == 'C' ? 27.0 : 21.0;
-    return moved(beside(view, piece.from, piece.to, letter == 'G' ? 0.3 : 0.5, away), 0, 7);
+    return heinonen_name_place(view, NamedSegment{piece.name, piece.from, piece.to});
 }
 
 std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn) {

@@ -1,5 +1,6 @@
 #include "chapters/ch03_bsp_trees/figures/recorded_build.hpp"
 
+#include "common/program/tree_layout.hpp"
 #include "common/scene.hpp"
 
 #include <algorithm>
@@ -134,8 +135,7 @@ Story heinonen_story() {
 }
 
 std::string written(const Piece& piece) {
-    const std::string letter = "*" + piece.name.substr(0, 1) + "*";
-    return piece.name.size() == 1 ? letter : letter + "_{" + piece.name.substr(1) + "}";
+    return drawn_name(piece.name);
 }
 
 std::string written(const Story& story, std::span<const std::size_t> set) {
@@ -145,26 +145,26 @@ std::string written(const Story& story, std::span<const std::size_t> set) {
     return text + "}";
 }
 
-TreeLayout layout_of(const Story& story) {
-    TreeLayout layout;
-    layout.nodes.resize(story.turns.size());
-    for (std::size_t i = 0; i < story.turns.size(); ++i) {
-        const std::uint32_t parent = story.turns[i].parent;
-        const double level = parent == BspTree<2>::none ? 0.0 : layout.nodes[parent].y + 1.0;
-        layout.nodes[i].y = level;
-        layout.levels = std::max(layout.levels, static_cast<std::size_t>(level) + 2);
-    }
+std::vector<std::vector<std::size_t>> children_of(const Story& story) {
+    const std::size_t nodes = story.turns.size();
+    std::vector<std::vector<std::size_t>> children(nodes + story.cells.size());
     for (std::size_t i = 0; i < story.cells.size(); ++i)
-        layout.cells.push_back(
-            {static_cast<double>(i) + 0.5, layout.nodes[story.cells[i].node].y + 1.0});
-    // A node stands over the middle of its children; those come after it in the list.
-    for (std::size_t i = story.turns.size(); i-- > 0;) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < story.cells.size(); ++c)
-            if (story.cells[c].node == i) sum += layout.cells[c].x;
-        for (std::size_t c = i + 1; c < story.turns.size(); ++c)
-            if (story.turns[c].parent == i) sum += layout.nodes[c].x;
-        layout.nodes[i].x = sum / 2.0;
+        children[story.cells[i].node].push_back(nodes + i);
+    for (std::size_t i = 1; i < nodes; ++i) children[story.turns[i].parent].push_back(i);
+    // Behind a node on the left, before it on the right.
+    const auto in_front = [&](std::size_t child) {
+        return child < nodes ? story.turns[child].in_front : story.cells[child - nodes].in_front;
+    };
+    for (std::vector<std::size_t>& pair : children) std::ranges::sort(pair, {}, in_front);
+    return children;
+}
+
+TreeLayout layout_of(const Story& story) {
+    const std::vector<Double2> places = tree_layout(children_of(story));
+    TreeLayout layout;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        (i < story.turns.size() ? layout.nodes : layout.cells).push_back(places[i]);
+        layout.levels = std::max(layout.levels, static_cast<std::size_t>(places[i].y) + 1);
     }
     return layout;
 }

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "chapters/ch03_bsp_trees/bsp_builder.hpp"
+#include "common/program/plane_view.hpp"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,22 +13,6 @@
 #include <vector>
 
 namespace space::ch03 {
-
-/// A convex part of the plane: its corners in order.
-using ConvexCell = std::vector<Double2>;
-
-/// The part of a convex cell where height(point) is not negative; the height is linear.
-template <class Height>
-ConvexCell part_above(const ConvexCell& cell, const Height& height) {
-    ConvexCell part;
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-        const Double2 &p = cell[i], &q = cell[(i + 1) % cell.size()];
-        const double at_p = height(p), at_q = height(q);
-        if (at_p >= 0.0) part.push_back(p);
-        if (at_p * at_q < 0.0) part.push_back(p + at_p / (at_p - at_q) * (q - p));
-    }
-    return part;
-}
 
 /// The part of a convex cell in front of a line, or behind it.
 ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_front);
@@ -83,12 +67,14 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config,
 
 /// The segments A .. G of Heinonen16 with the splitters that the thesis chooses.
 Story heinonen_story();
-inline constexpr double heinonen_size = 16.0;  ///< of the square that they lie in
 
 /// "C1" as the drawings write it: "*C*_1".
 std::string written(const Piece& piece);
 /// "{*A*, *B*}"
 std::string written(const Story& story, std::span<const std::size_t> set);
+
+/// The nodes, and after them the empty cells, below each node: from left to right in a drawn tree.
+std::vector<std::vector<std::size_t>> children_of(const Story& story);
 
 /// Where the nodes and the empty cells of a drawn tree stand: x in slots from the left, one for
 /// each empty cell; y in levels.

@@ -1,0 +1,49 @@
+#include "chapters/ch03_bsp_trees/figures/recorded_walk.hpp"
+
+#include <algorithm>
+
+namespace space::ch03 {
+namespace {
+
+/// Writes the events down.
+struct Watcher {
+    std::vector<WalkEvent> events = {};
+    void observe(const WalkEvent& event) { events.push_back(event); }
+};
+
+double distance_along(const BasicRay<2>& ray, const Segment& segment) {
+    const Double2 o(ray.origin), d(ray.direction), a(segment[0]), way = Double2(segment[1]) - a;
+    const double turn = d.x * way.y - d.y * way.x;
+    if (turn == 0.0) return infinity;
+    const Double2 from = a - o;
+    const double t = (from.x * way.y - from.y * way.x) / turn,
+                 s = (from.x * d.y - from.y * d.x) / turn;
+    return t >= 0.0 && s >= 0.0 && s <= 1.0 ? t : double{infinity};
+}
+
+}  // namespace
+
+double hit_in(const BspTree<2>& tree, std::uint32_t node, const BasicRay<2>& ray) {
+    double nearest = infinity;
+    for (std::uint32_t i = 0; i < tree.nodes[node].count; ++i) {
+        const std::uint32_t polygon = tree.fragments[tree.nodes[node].first + i].polygon;
+        nearest = std::min(nearest, distance_along(ray, tree.polygons[polygon]));
+    }
+    return nearest;
+}
+
+std::vector<WalkEvent> watched_walk(const BspTree<2>& tree, const BasicRay<2>& ray) {
+    Watcher watcher;
+    NoCounts none;
+    double nearest = infinity;
+    front_to_back(
+        tree, ray, none,
+        [&](const BspTree<2>::Node& node) {
+            const auto index = static_cast<std::uint32_t>(&node - tree.nodes.data());
+            return nearest = std::min(nearest, hit_in(tree, index, ray));
+        },
+        watcher);
+    return watcher.events;
+}
+
+}  // namespace space::ch03
