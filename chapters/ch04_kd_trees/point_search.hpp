@@ -8,6 +8,8 @@
 #include "chapters/ch04_kd_trees/squared_distance.hpp"
 #include "common/observer.hpp"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -40,10 +42,10 @@ class PointSearch {
 
     // [run]
     /// Offers `search.consider(distance, slot)` every point whose squared distance in float is at
-    /// most `search.reach`, which may shrink on the way. Of two cells the nearer comes first.
+    /// most `search.reach`, which may shrink on the way. Of two cells the nearer comes first. The
+    /// tree is not empty, and the query is finite.
     template <class Search, class Observer>
     static void run(const Tree& tree, const Point<D>& query, Search& search, Observer& observer) {
-        if (tree.size == 0 || !is_finite<D>(query)) return;
         std::array<Cell, 32> waiting;  // one a level at most
         std::size_t size = 0;
         waiting[size++] = root_cell(tree, query);
@@ -78,19 +80,15 @@ class PointSearch {
             offset[axis] = away * away;
             distance = sum(offset);
         }
-        static float sum(const Vector2& v) { return v.x + v.y; }
-        static float sum(const Vector3& v) { return v.x + v.y + v.z; }
     };
     // [cell]
+    static float sum(const Vector2& v) { return v.x + v.y; }
+    static float sum(const Vector3& v) { return v.x + v.y + v.z; }
 
     static Cell root_cell(const Tree& tree, const Point<D>& query) {
-        Cell cell{tree.root(), Vector<D>{0.0f}, 0.0f};
-        for (int axis = 0; axis < D; ++axis) {
-            const float below = tree.bounds.min[axis] - query[axis];
-            const float above = query[axis] - tree.bounds.max[axis];
-            cell.set(axis, std::max({below, above, 0.0f}));
-        }
-        return cell;
+        const Vector<D> below = tree.bounds.min - query, above = query - tree.bounds.max;
+        const Vector<D> away = glm::max(glm::max(below, above), Vector<D>{0.0f});
+        return {tree.root(), away * away, sum(away * away)};
     }
 
     // [go_near]
@@ -337,7 +335,7 @@ template <int D, class Observer = NoObserver>
 void within_radius(const KdPoints<D>& tree, const Point<D>& query, float radius,
                    std::vector<Neighbour>& found, Observer&& observer = {}) {
     found.clear();
-    if (!(radius >= 0.0f)) return;
+    if (tree.size == 0 || !is_finite<D>(query) || !(radius >= 0.0f)) return;
     const TrueOrder<D> nearer{tree, query};
     RadiusSearch<D> search(nearer, radius, found);
     PointSearch<D>::run(tree, query, search, observer);

@@ -37,7 +37,10 @@ inline const std::vector<NumberKind> number_kinds{
     {"ordinary", [](Pcg32& r) { return r.uniform(-1.0f, 1.0f); }},
     {"a grid, where distances tie", [](Pcg32& r) { return whole_float(r, 6); }},
     {"near ties in float",
-     [](Pcg32& r) { return whole_float(r, 2) * 4096.0f + whole_float(r, 4); }},
+     [](Pcg32& r) {
+         const float large = whole_float(r, 2) * 4096.0f;
+         return large + whole_float(r, 4);
+     }},
     {"near ties in double",
      [](Pcg32& r) {
          const float sign = r.below(2) ? 1.0f : -1.0f, large = whole_float(r, 2) + 3.0f;
