@@ -76,11 +76,14 @@ struct KdNodes {
     std::size_t depth = 0;    ///< edges from the root to the deepest leaf
 
     /// What a leaf names, or an inner node keeps.
-    std::span<const std::uint32_t> own(std::uint32_t index) const {
+    Range own_range(std::uint32_t index) const {
         const KdNode node = nodes[index];
-        if (node.is_leaf()) return std::span(references).subspan(node.first(), node.count());
-        if (!node.keeps()) return {};
-        return std::span(references).subspan(kept[index].first, kept[index].count);
+        if (node.is_leaf()) return {node.first(), node.count()};
+        return node.keeps() ? kept[index] : Range{};
+    }
+    std::span<const std::uint32_t> own(std::uint32_t index) const {
+        const Range range = own_range(index);
+        return std::span(references).subspan(range.first, range.count);
     }
 
     /// Calls visit(index, cell, depth) for each node, below before above.

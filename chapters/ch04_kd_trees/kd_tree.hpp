@@ -167,8 +167,8 @@ class KdTree {
     static KdTree build(std::span<const Triangle> triangles, const Config& config = {},
                         Observer&& observer = {}) {
         KdTree tree;
-        tree.triangles_.assign(triangles.begin(), triangles.end());
-        tree.nodes_ = KdBuilder<3>::build(tree.triangles_, config, observer);
+        tree.nodes_ = KdBuilder<3>::build(triangles, config, observer);
+        tree.place(triangles);
         tree.costs_ = config.costs;
         tree.mailboxes_ = config.mailboxes;
         return tree;
@@ -213,6 +213,7 @@ class KdTree {
                 .bytes = sizeof *this + nodes_.nodes.size() * sizeof(KdNode) +
                          nodes_.references.size() * sizeof(std::uint32_t) +
                          nodes_.kept.size() * sizeof(KdNodes<3>::Range) +
+                         places_.size() * sizeof(std::uint32_t) +
                          triangles_.size() * sizeof(Triangle),
                 .sah_cost = whole > 0.0 ? std::optional(cost / whole) : std::nullopt};
     }
@@ -226,11 +227,12 @@ class KdTree {
         Mailbox mailbox(mailboxes_);
         double limit = infinity;
         walk_cells(nodes_, ray, counts, [&](std::uint32_t node) {
-            for (const std::uint32_t triangle : nodes_.own(node)) {
-                if (mailbox.remembers(triangle)) continue;
+            const auto [first, count] = nodes_.own_range(node);
+            for (std::uint32_t i = first; i < first + count; ++i) {
+                if (mailbox.remembers(places_[i])) continue;
                 counts.test_triangle();
-                if (auto hit = Test::intersect(ray, triangles_[triangle])) {
-                    hit->triangle = triangle;
+                if (auto hit = Test::intersect(ray, triangles_[places_[i]])) {
+                    hit->triangle = nodes_.references[i];
                     limit = found(*hit);
                 }
             }
@@ -239,8 +241,25 @@ class KdTree {
     }
     // [search]
 
-    std::vector<Triangle> triangles_;
+    // [place]
+    /// Copies the triangles in the order in which they are first named: what a ray meets one after
+    /// the other lies together in memory.
+    void place(std::span<const Triangle> triangles) {
+        constexpr std::uint32_t nowhere = ~0u;
+        std::vector<std::uint32_t> place_of(triangles.size(), nowhere);
+        for (const std::uint32_t triangle : nodes_.references) {
+            if (place_of[triangle] == nowhere) {
+                place_of[triangle] = static_cast<std::uint32_t>(triangles_.size());
+                triangles_.push_back(triangles[triangle]);
+            }
+            places_.push_back(place_of[triangle]);
+        }
+    }
+    // [place]
+
     KdNodes<3> nodes_;
+    std::vector<Triangle> triangles_;    ///< copies
+    std::vector<std::uint32_t> places_;  ///< of the nodes' references, in these
     SahCosts costs_;
     bool mailboxes_ = true;
 };

@@ -285,7 +285,7 @@ TEST_CASE("K6: of a cell without area costs are 0 / 0; lengths decide, and the b
     for (const Triangle& t : line) box.extend(bounds(t));
     CHECK(std::isnan(box.half_area() / box.half_area()));
     const SahCost<3> cost(box, 0, {});
-    CHECK(cost(31.75f, 32, 32, 64) == Approx(1.0 + 2.0 * 32.0));
+    CHECK(cost(31.75f, 32, 32, 64) == Approx(1.0 + 32.0));
     const KdNodes<3> tree = KdBuilder<3>::build(line);
     CHECK(tree.nodes.size() > 32);
     CHECK(tree.references.size() == 64);
