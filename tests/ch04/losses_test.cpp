@@ -139,6 +139,25 @@ TEST_CASE("splits without a margin lose parts that clipping keeps") {
     CHECK(lost_by_clipping == 0);
 }
 
+TEST_CASE("a corner that only rounding puts outside keeps its part of a shallow edge") {
+    // x = p cuts the edge from (0, p) to (49, p - 49) at y = 0; p / 49 * 49 is not always p. The
+    // next edge runs nearly along y = 0, away from z = 0.
+    int bent = 0;
+    for (int k = 1; k < 49; ++k) {
+        const auto p = float(k);
+        const Triangle triangle{{0, p, 0}, {49, p - 49, 0}, {0, p - 0x1p-20f, 1000}};
+        const Aabb cell{{0, -50, 0}, {p, 0, 1000}};
+        ClippedPolygon<3> plain;
+        for (int corner = 0; corner < 3; ++corner) plain.push_back(Double3(triangle[corner]));
+        plain = plain.clipped(0, double{p}, 1.0).clipped(1, 0.0, 1.0);
+        double low = infinity;
+        for (std::size_t i = 0; i < plain.size; ++i) low = std::min(low, plain.corners[i].z);
+        bent += low > 0.0;  // the corner at z = 0 is cut off, and more with it
+        CHECK(clipped_bounds<3>(triangle, cell).min.z == 0.0f);
+    }
+    CHECK(bent > 0);
+}
+
 TEST_CASE("clipped bounds hold the exact part, and are no wider than their roundings") {
     Pcg32 random(3);
     double widest = 0.0;
