@@ -129,11 +129,7 @@ TEST_CASE("no pixel falls between two triangles with a common edge") {
 }
 
 TEST_CASE("ray tracer and rasteriser differ only within the stated distance of an edge") {
-#ifdef BOOK_SANITIZED
-    constexpr int width = 24, height = 18;
-#else
-    constexpr int width = 80, height = 60;
-#endif
+    constexpr int width = sized(80, 24), height = sized(60, 18);
     std::uint64_t near_edge = 0;
     for (const SceneRecipe& recipe : scene_recipes()) {
         if (recipe.from_file) continue;  // which need not be there

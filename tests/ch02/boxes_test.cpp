@@ -16,11 +16,7 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int pairs_each = 1'000;
-#else
-constexpr int pairs_each = 20'000;
-#endif
+constexpr int pairs_each = sized(20'000, 1'000);
 
 mpq_class rational(float x) {
     return mpq_class(double{x});

@@ -8,11 +8,7 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int pairs_each = 300;
-#else
 constexpr int pairs_each = 10'000;
-#endif
 
 }  // namespace
 

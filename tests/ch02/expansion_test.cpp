@@ -11,11 +11,7 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int rounds = 1'000;
-#else
-constexpr int rounds = 20'000;
-#endif
+constexpr int rounds = sized(20'000, 1'000);
 
 template <std::size_t N>
 mpq_class exact(const Expansion<N>& e) {

@@ -15,11 +15,7 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int pairs_each = 300;
-#else
-constexpr int pairs_each = 3'000;
-#endif
+constexpr int pairs_each = sized(3'000, 300);
 
 struct Stages {
     std::array<std::uint64_t, 3> count{};

@@ -7,11 +7,7 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr std::uint64_t rays = 500;
-#else
 constexpr std::uint64_t rays = 20'000;
-#endif
 constexpr std::size_t schoolbook = 1, stable = 2, in_double = 3;
 
 }  // namespace

@@ -10,11 +10,7 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr std::uint32_t stride = 101;
-#else
 constexpr std::uint32_t stride = 1;  // all 2^24 floats
-#endif
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float smallest = std::numeric_limits<float>::denorm_min();

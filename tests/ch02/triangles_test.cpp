@@ -8,13 +8,8 @@
 namespace space::ch02 {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr std::uint64_t leak_rays = 300, bounce_count = 300;
-constexpr int pairs_each = 2'000;
-#else
 constexpr std::uint64_t leak_rays = 10'000, bounce_count = 10'000;
 constexpr int pairs_each = 50'000;
-#endif
 
 template <class Test>
 std::size_t index_of() {

@@ -17,11 +17,7 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int starts = 2, tries = 400;
-#else
-constexpr int starts = 6, tries = 15'000;
-#endif
+constexpr int starts = sized(6, 2), tries = sized(15'000, 400);
 
 // ---- exact numbers
 
@@ -70,15 +66,15 @@ double part_of(double computed, const mpq_class& exact, double error) {
 template <std::size_t N>
 using Floats = std::array<float, N>;
 
-template <int D, std::size_t N>
-Point<D> point(const Floats<N>& numbers, std::size_t index) {
+template <int D>
+Point<D> point(std::span<const float> numbers, std::size_t index) {
     Point<D> p;
     for (int axis = 0; axis < D; ++axis)
         p[axis] = numbers[index * D + static_cast<std::size_t>(axis)];
     return p;
 }
-template <int D, std::size_t N>
-Simplex<D> simplex(const Floats<N>& numbers, std::size_t index) {
+template <int D>
+Simplex<D> simplex(std::span<const float> numbers, std::size_t index) {
     if constexpr (D == 2)
         return {point<2>(numbers, index), point<2>(numbers, index + 1)};
     else

@@ -14,15 +14,9 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int points = 5'000, rays = 10'000;
-constexpr std::uint32_t sizes[] = {50, 100};
-constexpr std::uint32_t rows = 12;
-#else
 constexpr int points = 200'000, rays = 200'000;
 constexpr std::uint32_t sizes[] = {100, 200, 400};
 constexpr std::uint32_t rows = 24;
-#endif
 constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double,
                             Grade::exact};
 

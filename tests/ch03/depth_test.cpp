@@ -15,13 +15,8 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr std::int32_t built_chain = 2'000;
-constexpr std::size_t stack_bytes = 1 << 20;  // the sanitizer's own frames are large
-#else
-constexpr std::int32_t built_chain = 10'000;
-constexpr std::size_t stack_bytes = 96 << 10;
-#endif
+constexpr std::int32_t built_chain = sized(10'000, 2'000);
+constexpr std::size_t stack_bytes = sized(96 << 10, 1 << 20);  // the sanitizer's frames are large
 constexpr std::int32_t made_chain = 100'000;
 
 /// Runs on a stack on which no recursion gets a thousand nodes deep.

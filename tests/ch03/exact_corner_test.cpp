@@ -15,11 +15,7 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int each = 100;
-#else
-constexpr int each = 2'000;
-#endif
+constexpr int each = sized(2'000, 100);
 
 /// The same examples on every run; RC_PARAMS in the environment asks for others.
 const int seeded = ::setenv("RC_PARAMS", "seed=1 max_success=1000", 0);

@@ -12,11 +12,7 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int exact_rays = 4'000, inexact_rays = 20'000, slipped_rays = 15'000;
-#else
 constexpr int exact_rays = 150'000, inexact_rays = 100'000, slipped_rays = 25'000;
-#endif
 
 /// A closed mesh, and perhaps triangles that cut it before its own do.
 struct Mesh {

@@ -12,11 +12,7 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr std::uint32_t every = 16;  // of the polygons
-#else
 constexpr std::uint32_t every = 1;
-#endif
 
 constexpr Grade inexact_grades[] = {Grade::thick_float, Grade::ordered_float,
                                     Grade::ordered_double};

@@ -16,11 +16,7 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int width = 16, height = 12, points_each = 30;
-#else
-constexpr int width = 48, height = 36, points_each = 1'500;
-#endif
+constexpr int width = sized(48, 16), height = sized(36, 12), points_each = sized(1'500, 30);
 
 std::vector<TestScene> painted_scenes() {
     return {{"random", scenes::soup(40, 0.6f, 1)},

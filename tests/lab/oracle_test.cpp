@@ -20,11 +20,7 @@ using namespace space;
 
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr bool variants_too = false;  // they take minutes, and are the same code
-#else
-constexpr bool variants_too = true;
-#endif
+constexpr bool variants_too = !is_sanitized;  // they take minutes, and are the same code
 
 const std::filesystem::path bunny = "/usr/share/glmark2/models/bunny.obj";  // Debian's glmark2-data
 

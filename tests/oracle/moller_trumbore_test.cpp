@@ -20,11 +20,7 @@
 namespace space {
 namespace {
 
-#ifdef BOOK_SANITIZED
-constexpr int pairs = 2'000;
-#else
-constexpr int pairs = 20'000;
-#endif
+constexpr int pairs = sized(20'000, 2'000);
 
 /// The same examples on every run; RC_PARAMS in the environment asks for others.
 const int seeded = ::setenv("RC_PARAMS", "seed=1 max_success=1000", 0);

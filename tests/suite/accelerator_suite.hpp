@@ -94,13 +94,8 @@ struct SuiteReport {
 };
 
 struct SuiteOptions {
-#ifdef BOOK_SANITIZED
-    int aimed_rays = 1'000;
-    int other_rays = 60;
-#else
-    int aimed_rays = 10'000;  ///< at edges and vertices, per scene
-    int other_rays = 400;     ///< of each other kind, per scene
-#endif
+    int aimed_rays = sized(10'000, 1'000);  ///< at edges and vertices, per scene
+    int other_rays = sized(400, 60);        ///< of each other kind, per scene
     int exact_rays = 100;  ///< about so many per scene whose naive answers the exact oracle sees
     unsigned patience =
         60;  ///< seconds that a scene may take in the child before it counts as hanging
