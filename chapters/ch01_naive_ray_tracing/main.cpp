@@ -11,7 +11,6 @@
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace space::ch01 {
@@ -27,19 +26,18 @@ ChapterOptions read_options(int argc, char** argv) {
         add_whole_number(
             app, "--samples", 1, 16, [&](std::uint64_t n) { samples = static_cast<int>(n); },
             "rays per pixel and axis; default: 2, with --quick 1");
-        app.footer(
-            "Examples:\n"
-            "  ch01_naive_ray_tracing --out pictures             the chapter, in two minutes\n"
-            "  ch01_naive_ray_tracing --quick --scene soup:500   another scene, fewer "
-            "measurements\n"
-            "  ch01_naive_ray_tracing --scene bunny --size 60x45 --samples 1\n"
-            "  ch01_naive_ray_tracing --figure all --out figures");
     };
     ChapterOptions options{parse_options(
         argc, argv,
         {.name = this_chapter.name,
          .about = "Chapter 1: naive ray tracing, wrong and right, beside a rasteriser",
-         .defaults = {.scene = "room:3", .width = 240, .height = 180}},
+         .defaults = {.scene = "room:3", .width = 240, .height = 180},
+         .examples =
+             "  ch01_naive_ray_tracing --out pictures             the chapter, in two minutes\n"
+             "  ch01_naive_ray_tracing --quick --scene soup:500   another scene, fewer "
+             "measurements\n"
+             "  ch01_naive_ray_tracing --scene bunny --size 60x45 --samples 1\n"
+             "  ch01_naive_ray_tracing --figure all --out figures"},
         add_samples)};
     if (options.small) options.width = 32, options.height = 24;
     options.samples = samples ? samples : options.quick || options.small ? 1 : 2;

@@ -11,7 +11,6 @@
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,27 +30,23 @@ ChapterOptions read_options(int argc, char** argv) {
     std::map<std::string, SplitterChoice> splitters;
     for (const Method& method : methods)
         if (method.straddlers == Straddlers::split) splitters.emplace(method.name, method.splitter);
+    std::vector<std::string> names;
+    for (const auto& [name, _] : splitters) names.push_back(name);
     std::string splitter = "weighted";
     const auto add_tree = [&](CLI::App& app) {
-        app.add_option("--splitter", splitter, "how the pictures' tree chooses its planes")
-            ->check(CLI::IsMember(splitters))
-            ->capture_default_str()
-            ->type_name("NAME");
-        app.add_option("--max-fragments", tree.max_fragments, "give the pictures' tree up beyond")
-            ->check(CLI::Range(std::size_t{1}, max_scene_fragments))
-            ->capture_default_str();
-        app.footer(
-            "Examples:\n"
-            "  ch03_bsp_trees --out pictures                        the chapter, in some minutes\n"
-            "  ch03_bsp_trees --quick --scene stadium --splitter free\n"
-            "  ch03_bsp_trees --figure all --out figures");
+        add_choice(app, "--splitter", names, splitter, "how the pictures' tree chooses its planes");
+        add_whole_number(app, "--max-fragments", 1, max_scene_fragments, tree.max_fragments,
+                         "give the pictures' tree up beyond");
     };
-    ChapterOptions options{
-        parse_options(argc, argv,
-                      {.name = this_chapter.name,
-                       .about = "Chapter 3: BSP trees with polygon splitting",
-                       .defaults = {.scene = default_scene, .width = 240, .height = 180}},
-                      add_tree)};
+    ChapterOptions options{parse_options(
+        argc, argv,
+        {.name = this_chapter.name,
+         .about = "Chapter 3: BSP trees with polygon splitting",
+         .defaults = {.scene = default_scene, .width = 240, .height = 180},
+         .examples = "  ch03_bsp_trees --out pictures       the chapter, in some minutes\n"
+                     "  ch03_bsp_trees --quick --scene stadium --splitter free\n"
+                     "  ch03_bsp_trees --figure all --out figures"},
+        add_tree)};
     options.tree = tree;
     options.tree.splitter = splitters.at(splitter);
     if (options.small && options.scene == default_scene) options.scene = "lattice";

@@ -57,6 +57,21 @@ CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint6
         ->type_name(bounded ? fmt::format("{}..{}", low, high) : "N");
 }
 
+void add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low, std::uint64_t high,
+                      std::size_t& value, const std::string& about) {
+    add_whole_number(
+        app, name, low, high, [&value](std::uint64_t n) { value = n; }, about)
+        ->default_str(fmt::format("{}", value));
+}
+
+void add_choice(CLI::App& app, const std::string& name, const std::vector<std::string>& names,
+                std::string& value, const std::string& about) {
+    app.add_option(name, value, about)
+        ->check(CLI::IsMember(names))
+        ->capture_default_str()
+        ->type_name("NAME");
+}
+
 void add_common_options(CLI::App& app, Options& options) {
     add_whole_number(
         app, "--threads", 1, max_threads,
@@ -106,6 +121,7 @@ Options parse_options(int argc, char** argv, const ProgramInfo& program,
     app.add_option("--figure", options.figure, "make one figure, or 'all', into --out and end");
     add_common_options(app, options);
     if (more) more(app);
+    if (!program.examples.empty()) app.footer("Examples:\n" + program.examples);
     parse_command_line(app, argc, argv);
     if (options.threads == 0) options.threads = std::max(1u, std::thread::hardware_concurrency());
     return options;

@@ -43,9 +43,11 @@ struct ProgramInfo {
     std::string_view name;  ///< "ch01_naive_ray_tracing"
     std::string about;      ///< first line of --help
     Options defaults;
+    std::string examples = {};  ///< last lines of --help
 };
 
-/// Parses the command line. `more` may add options of the program's own to the parser. --help
+/// Parses the command line. `more` may add options of the program's own to the parser, by the
+/// functions below: the header of CLI11 takes as long to compile as the rest of a program. --help
 /// prints and exits 0.
 /// @throws Error (usage) with one line for anything absurd
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
@@ -58,6 +60,14 @@ inline constexpr unsigned max_threads = 1024;  ///< more is a slip of the finger
 CLI::Option* add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low,
                               std::uint64_t high, std::function<void(std::uint64_t)> set,
                               const std::string& about);
+
+/// The same into `value`, whose default --help shows.
+void add_whole_number(CLI::App& app, const std::string& name, std::uint64_t low, std::uint64_t high,
+                      std::size_t& value, const std::string& about);
+
+/// An option that takes one of some names, into `value`, whose default --help shows.
+void add_choice(CLI::App& app, const std::string& name, const std::vector<std::string>& names,
+                std::string& value, const std::string& about);
 
 /// --threads, --seed and --size, for programs that have other options than a chapter's.
 void add_common_options(CLI::App& app, Options& options);
