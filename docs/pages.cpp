@@ -7,6 +7,7 @@
 #include "docs/measured.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <ranges>
 #include <regex>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace space::docs {

@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace space::docs {
 namespace {

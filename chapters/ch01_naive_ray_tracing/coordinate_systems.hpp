@@ -11,6 +11,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
+#include <utility>
+
 namespace space {
 
 /// A linear map of homogeneous column vectors: the right factor of a product is applied first.

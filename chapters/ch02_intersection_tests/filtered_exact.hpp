@@ -7,6 +7,7 @@
 #include "chapters/ch02_intersection_tests/expansion.hpp"
 #include "common/accelerator.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <optional>
 

@@ -5,6 +5,7 @@
 
 #include "common/geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

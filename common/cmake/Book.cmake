@@ -24,6 +24,25 @@ if(BOOK_SANITIZE)
     target_link_options(book_flags INTERFACE -fsanitize=${BOOK_SANITIZE})
 endif()
 
+# Headers that take the compiler longer than most of our sources, compiled once. Others' only, so that a change in ours
+# compiles no more than what includes it. They hide where one of them is not included: house.includes_are_whole tells.
+set(BOOK_HEADERS <fmt/format.h> <fmt/ranges.h> <glm/glm.hpp> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem>
+                 <functional> <limits> <map> <memory> <optional> <set> <span> <string> <thread> <vector>)
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// Whose headers others share.\n")
+add_library(book_headers OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+target_link_libraries(book_headers PRIVATE book_flags fmt::fmt glm::glm)
+target_precompile_headers(book_headers PRIVATE ${BOOK_HEADERS})
+
+# book_shares_headers(target)
+# For what links book_flags and has no flags of its own that change what the compiler makes of a header.
+function(book_shares_headers)
+    foreach(target IN LISTS ARGN)
+        target_precompile_headers(${target} REUSE_FROM book_headers)
+    endforeach()
+endfunction()
+
 # book_built("what")  book_left_out("what" "why")
 # One line each in the list that ends the configuring.
 function(book_built what)
@@ -73,7 +92,7 @@ endmacro()
 #   chNN_library   the subject: its *.cpp and those of folders of its own, but main.cpp (where it has any)
 #   chNN_measured  measured/*.cpp (where it has any)
 #   the program    main.cpp and figures/*.cpp
-#   chNN_tables    main.cpp alone, for ./book try
+#   chNN_tables    main.cpp alone, for ./book try and for sanitizers, under which no test makes a figure
 #   chNN_benchmarks  measured/benchmarks.cpp
 # and a test that --small prints measured/expected_small.txt.
 function(add_chapter)
@@ -99,11 +118,13 @@ function(add_chapter)
     if(subject)
         add_library(${short}_library STATIC ${subject})
         target_link_libraries(${short}_library PUBLIC ${libraries} PRIVATE book_flags)
+        book_shares_headers(${short}_library)
         set(libraries ${short}_library)
     endif()
     if(measured)
         add_library(${short}_measured STATIC ${measured})
         target_link_libraries(${short}_measured PUBLIC ${libraries} PRIVATE book_flags)
+        book_shares_headers(${short}_measured)
         set(libraries ${short}_measured)
     endif()
     set_property(GLOBAL PROPERTY BOOK_${chapter}_LIBRARIES ${libraries})
@@ -115,6 +136,7 @@ function(add_chapter)
     target_link_libraries(${chapter} PRIVATE ${libraries} book_flags)
     target_include_directories(${chapter} PRIVATE ${PROJECT_BINARY_DIR}/register)
     target_compile_options(${chapter} PRIVATE -Wmissing-declarations)  # finds a figure without an add_figure line
+    book_shares_headers(${chapter})
     cmake_language(DEFER CALL book_write_register)
     set_target_properties(${chapter} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
     add_dependencies(programs ${chapter})
@@ -126,9 +148,17 @@ function(add_chapter)
 
 const space::Chapter space::this_chapter{\"${chapter}\", {}};
 " @ONLY)
-    add_executable(${short}_tables EXCLUDE_FROM_ALL ${dir}/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/no_figures.cpp)
+    add_executable(${short}_tables ${dir}/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/no_figures.cpp)
     target_link_libraries(${short}_tables PRIVATE ${libraries} book_flags)
+    book_shares_headers(${short}_tables)
     set_target_properties(${short}_tables PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+    set(tested ${chapter})
+    set(other ${short}_tables)
+    if(BOOK_SANITIZE AND figures)
+        set(tested ${short}_tables)
+        set(other ${chapter})
+    endif()
+    set_target_properties(${other} PROPERTIES EXCLUDE_FROM_ALL ON)
 
     if(EXISTS ${dir}/measured/benchmarks.cpp AND benchmark_FOUND)
         add_executable(${short}_benchmarks ${dir}/measured/benchmarks.cpp)
@@ -136,18 +166,19 @@ const space::Chapter space::this_chapter{\"${chapter}\", {}};
             set_target_properties(${short}_benchmarks PROPERTIES EXCLUDE_FROM_ALL ON)
         endif()
         target_link_libraries(${short}_benchmarks PRIVATE ${libraries} book_flags benchmark::benchmark_main)
+        book_shares_headers(${short}_benchmarks)
         set_target_properties(${short}_benchmarks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
         add_dependencies(benchmarks ${short}_benchmarks)
     endif()
     file(GLOB expected CONFIGURE_DEPENDS ${dir}/measured/expected_small.txt)  # once it is there, the next build sees it
     if(expected)
-        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}>
+        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tested}>
                  -D EXPECTED=${dir}/measured/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${chapter}
                  -P ${PROJECT_SOURCE_DIR}/tests/house/compare_small.cmake)
         set_tests_properties(${short}.small PROPERTIES LABELS chapter TIMEOUT 300)
     endif()
     if(measured)  # it writes results
-        add_test(NAME ${short}.out_is_checked_first COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${chapter}>
+        add_test(NAME ${short}.out_is_checked_first COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tested}>
                  -D OUT=${dir}/main.cpp/no_directory -P ${PROJECT_SOURCE_DIR}/tests/house/out_is_checked_first.cmake)
         set_tests_properties(${short}.out_is_checked_first PROPERTIES LABELS chapter TIMEOUT 60)
     endif()
@@ -239,11 +270,7 @@ find_package(Catch2)
 if(NOT Catch2_FOUND)
     book_left_out("unit tests and checks of exercises" "Catch2 is not installed (package catch2)")
 elseif(Catch2_VERSION VERSION_LESS 3)
-    add_library(book_catch_main OBJECT ${PROJECT_SOURCE_DIR}/tests/catch_main.cpp)
-    # Others' code, and minutes of compiling with optimiser and sanitizers: it gets neither.
-    target_compile_options(book_catch_main PRIVATE -std=c++20 -O0)
-    target_include_directories(book_catch_main PRIVATE ${PROJECT_SOURCE_DIR})
-    target_link_libraries(book_catch_main PUBLIC Catch2::Catch2)
+    add_subdirectory(${PROJECT_SOURCE_DIR}/common/cmake/catch2 catch2)
     set(BOOK_CATCH_ARGUMENTS -w NoTests)
 else()
     add_library(book_catch_main INTERFACE)
@@ -251,21 +278,16 @@ else()
     set(BOOK_CATCH_ARGUMENTS)
 endif()
 
-# Headers that take the compiler longer than most tests and checks, compiled once. Others' only, so that a change in ours
-# compiles no more than what includes it.
-# Under sanitizers the optimiser takes longer over tests and checks than it saves (bsp_test.cpp: 15 s for 6 s).
+# As BOOK_HEADERS, with Catch2's. Under sanitizers the optimiser takes longer over tests and checks than it saves (bsp_test.cpp: 15 s for 6 s).
 set(unoptimised)
 if(BOOK_SANITIZE)
     set(unoptimised -O0)
 endif()
 if(TARGET book_catch_main)
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// Whose headers the tests share.\n")
-    add_library(book_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-    target_link_libraries(book_precompiled PRIVATE book_catch_main book_common book_flags)
-    target_compile_options(book_precompiled PRIVATE ${unoptimised})
-    target_precompile_headers(book_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch.hpp <fmt/format.h>
-                              <glm/glm.hpp> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits>
-                              <map> <optional> <set> <span> <string> <vector>)
+    add_library(book_test_headers OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+    target_link_libraries(book_test_headers PRIVATE book_catch_main book_common book_flags)
+    target_compile_options(book_test_headers PRIVATE ${unoptimised})
+    target_precompile_headers(book_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch.hpp ${BOOK_HEADERS})
 endif()
 
 # book_uses_catch(target)
@@ -277,7 +299,7 @@ function(book_uses_catch target)
     if("CGAL::CGAL" IN_LIST libraries)
         return()  # its flag -frounding-math wants headers of its own
     endif()
-    target_precompile_headers(${target} REUSE_FROM book_precompiled)
+    target_precompile_headers(${target} REUSE_FROM book_test_headers)
 endfunction()
 
 # add_exercise(ex01_erased_hit)

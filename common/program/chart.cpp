@@ -23,6 +23,7 @@
 #include <cstring>
 #include <optional>
 #include <regex>
+#include <utility>
 
 extern char** environ;
 

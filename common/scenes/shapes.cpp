@@ -1,5 +1,6 @@
 #include "common/scenes/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>

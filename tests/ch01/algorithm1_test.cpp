@@ -3,6 +3,8 @@
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 
+#include <utility>
+
 using namespace space;
 
 namespace {

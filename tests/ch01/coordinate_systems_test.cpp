@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 
 #include <numbers>
+#include <utility>
 
 using namespace space;
 

@@ -6,6 +6,7 @@
 #include "tests/catch.hpp"
 
 #include <numbers>
+#include <utility>
 
 using namespace space;
 

@@ -5,6 +5,8 @@
 #include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
 #include "tests/catch.hpp"
 
+#include <utility>
+
 namespace space::ch02 {
 namespace {
 

@@ -7,6 +7,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdio>

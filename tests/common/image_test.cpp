@@ -6,6 +6,7 @@
 #include "tests/common/temporary.hpp"
 
 #include <limits>
+#include <utility>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

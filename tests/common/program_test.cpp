@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <new>
 #include <set>
+#include <utility>
 
 namespace space {
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include <limits>
+#include <utility>
 
 namespace space {
 namespace {

@@ -7,7 +7,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <span>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace space {
 

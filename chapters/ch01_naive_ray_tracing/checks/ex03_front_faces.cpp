@@ -4,6 +4,7 @@
 #include "tests/check.hpp"
 
 #include <array>
+#include <vector>
 
 using namespace space;
 

@@ -2,6 +2,8 @@
 
 #include "tests/check.hpp"
 
+#include <algorithm>
+
 using namespace space;
 
 namespace {

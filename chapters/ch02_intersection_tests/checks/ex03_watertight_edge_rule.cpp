@@ -3,7 +3,9 @@
 #include "common/pcg32.hpp"
 #include "tests/check.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 using namespace space;

@@ -4,6 +4,7 @@
 #include "tests/check.hpp"
 
 #include <algorithm>
+#include <vector>
 
 using namespace space;
 
