@@ -62,7 +62,7 @@ run_check() {
 # The failed checks of a report, without Catch2's banner, places of test cases and sums.
 failed_checks() {
     { grep -vE -e '^(~+|\.+|=+)$' -e ' is a Catch2? v.* host application\.$|^Run with -\? for options$' \
-        -e '^Randomness seeded to: |^Filters: |^(test cases|assertions): |^[^ ]*\.cpp:[0-9]+$' "$log/exercise.txt" || true; } | cat -s
+        -e '^Randomness seeded to: |^Filters: |^(test cases|assertions): |\.cpp:[0-9]+$' "$log/exercise.txt" || true; } | cat -s
 }
 
 # The sentence that names the first test case of a report that failed: it stands between two lines of hyphens.
