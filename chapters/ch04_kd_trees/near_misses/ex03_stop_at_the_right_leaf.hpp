@@ -1,0 +1,42 @@
+/// @file
+/// Exercise 4.3, a near miss: a hit beyond the cell in hand does not count yet, since the cell in
+/// which it lies names the triangle again. And no triangle is tested twice. Each of the two rules
+/// is right alone; together they lose every hit that was met too early.
+#pragma once
+
+#include "common/accelerator.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace space {
+
+/// What the ray passes from t = enter to t = leave, both included.
+struct PassedCell {
+    double enter, leave;
+    std::vector<std::uint32_t> triangles;
+};
+
+/// Where the ray hits a triangle.
+using HitTest = std::function<std::optional<Hit>(std::uint32_t triangle)>;
+
+inline std::optional<Hit> nearest_hit(std::span<const PassedCell> cells, const HitTest& test) {
+    std::optional<Hit> nearest;
+    std::set<std::uint32_t> tested;
+    for (const PassedCell& cell : cells) {
+        if (nearest && double{nearest->t} < cell.enter) break;
+        for (const std::uint32_t triangle : cell.triangles) {
+            if (!tested.insert(triangle).second) continue;
+            const std::optional<Hit> hit = test(triangle);
+            if (hit && double{hit->t} <= cell.leave && (!nearest || nearer(*hit, *nearest)))
+                nearest = hit;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace space
