@@ -5,7 +5,7 @@
 #include "common/parallel.hpp"
 #include "common/program/error.hpp"
 #include "common/program/progress.hpp"
-#include "common/random.hpp"
+#include "common/random_rays.hpp"
 #include "common/scene.hpp"
 
 #include <fmt/format.h>
@@ -79,22 +79,6 @@ Limits limits(Amount amount) {
                     .edge_rays = 1'000'000,
                     .rounds = 5};
     }
-}
-
-std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
-                                  std::uint64_t seed) {
-    Aabb box;
-    for (const Triangle& triangle : triangles) box.extend(bounds(triangle));
-    const Double3 centre(box.centroid()), half = 0.5 * Double3(box.extent());
-    Pcg32 random(seed);
-    std::vector<Ray> rays;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Double3 away = random_direction(random);
-        const Point3 origin(centre + 2.0 * glm::length(half) * away);
-        const Point3 aim(centre + half * Double3(random_vector(random)));
-        rays.push_back({.origin = origin, .direction = aim - origin});
-    }
-    return rays;
 }
 
 TreeTask::TreeTask(std::string name, std::vector<Triangle> all, const Options& options)

@@ -50,10 +50,6 @@ Limits limits(Amount amount);
 inline constexpr std::size_t max_scene_fragments = 5'000'000;
 inline constexpr std::uint64_t max_scene_placed = 100'000'000;
 
-/// Rays from all around at points of the scene's box.
-std::vector<Ray> rays_from_around(std::span<const Triangle> triangles, std::size_t count,
-                                  std::uint64_t seed);
-
 /// What is built, and what the answers of the naive loop are.
 struct TreeTask {
     std::string scene;

@@ -1,0 +1,32 @@
+#include "chapters/ch04_kd_trees/figures.hpp"
+#include "chapters/ch04_kd_trees/measured/measurements.hpp"
+#include "chapters/ch04_kd_trees/measured/outcome.hpp"
+#include "common/measure.hpp"
+
+namespace space::ch04 {
+
+Chart fig_04_21(const Options& options) {
+    return cures_chart(measured_once<measure_cures>(options));
+}
+
+Chart fig_04_22(const Options& options) {
+    return rules_chart(measured_once<measure_trees>(options));
+}
+
+Chart fig_04_23(const Options& options) {
+    return rays_chart(measured_once<measure_growth>(options));
+}
+
+Chart fig_04_24(const Options& options) {
+    return build_chart(measured_once<measure_growth>(options));
+}
+
+Chart fig_04_25(const Options& options) {
+    return care_chart(measured_once<measure_care>(options));
+}
+
+Chart fig_04_26(const Options& options) {
+    return points_chart(measured_once<measure_point_searches>(options));
+}
+
+}  // namespace space::ch04
