@@ -17,7 +17,8 @@ namespace space {
 struct TriangleMesh {
     std::vector<Point3> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the front
-    /// What a file held that is not in the mesh, or not as it stood there: a line each, for people.
+    /// What a file held that is not in the mesh, or not as it stood there: a line each, which
+    /// names the file.
     std::vector<std::string> remarks = {};
 
     Triangle triangle(std::size_t face) const {

@@ -48,6 +48,7 @@ ChapterOptions read_options(int argc, char** argv) {
 /// rasteriser.
 void draw_pictures(const ChapterOptions& options) {
     const Scene scene = make_scene(options.scene, options.seed, options.small);
+    print_remarks(this_chapter.name, scene.mesh.remarks);
     const RenderSettings settings{.width = options.width,
                                   .height = options.height,
                                   .samples = options.samples,

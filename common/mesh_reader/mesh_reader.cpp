@@ -55,6 +55,7 @@ TriangleMesh load_mesh(const std::filesystem::path& file) {
     TriangleMesh mesh = triangulate(source, std::move(polygons));
     if (mesh.faces.empty()) source.fail("no face of the file encloses anything");
     mesh.remarks.insert(mesh.remarks.begin(), remarks.begin(), remarks.end());
+    for (std::string& remark : mesh.remarks) remark = fmt::format("{}: {}", source.name, remark);
     return mesh;
 }
 

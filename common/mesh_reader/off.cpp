@@ -39,6 +39,7 @@ struct OffReader {
 
     void take_keyword();
     void take_counts();
+    bool edges_are_left_out() const;
     bool stand_in_lines(bool faces) const;
     void read_vertex(Polygons& mesh, std::int64_t number);
     void read_face(Polygons& mesh, std::int64_t number);
@@ -73,14 +74,26 @@ void OffReader::take_keyword() {
     rest = {kind.data() + 3, static_cast<std::size_t>(end - kind.data() - 3)};
 }
 
+/// Some writers give two counts: then a vertex comes next, not a number in a line of its own.
+bool OffReader::edges_are_left_out() const {
+    std::string_view ahead = rest, line = take_line(ahead);
+    if (!trimmed(line.substr(0, line.find('#'))).empty()) return false;
+    line = take_off_line(ahead);
+    take_word(line);
+    return !take_word(line).empty();
+}
+
 void OffReader::take_counts() {
     constexpr const char* names[] = {"vertices", "faces", "edges"};
     // "0 0 0\n", "3 0 0 0": bytes that one takes at least
     constexpr std::int64_t fewest_bytes[] = {6, 6, 1};
     for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (i == 2 && edges_are_left_out()) return;
         const std::string_view word = take_off_word(rest);
         if (word == "BINARY")
             source.fail("binary OFF files are not read: convert it to text or to PLY");
+        if (word.empty())
+            source.fail(fmt::format("the file ends before its number of {}", names[i]));
         if (!parse_integer(word, counts[i]) || counts[i] < 0)
             source.fail_at(word.data(),
                            fmt::format("{} is not a number of {}", quote(word), names[i]));
@@ -164,6 +177,11 @@ Polygons read_off(Source& source) {
     for (std::int64_t i = 0; i < reader.counts[0]; ++i) reader.read_vertex(mesh, i);
     reader.by_lines = reader.stand_in_lines(true);
     for (std::int64_t i = 0; i < reader.counts[1]; ++i) reader.read_face(mesh, i);
+    std::string_view behind = reader.rest;
+    const std::string_view word = take_off_word(behind);
+    if (!word.empty())
+        mesh.remark = fmt::format("what follows the last face passed over, from line {} on",
+                                  source.line_of(word.data()));
     return mesh;
 }
 

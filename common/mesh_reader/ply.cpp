@@ -79,6 +79,8 @@ Layout parse_layout(const Source& source, std::string_view word, const char* whe
 PlyElement parse_element(const Source& source, std::string_view words) {
     const std::string_view name = take_word(words), number = take_word(words);
     std::int64_t count = 0;
+    if (number.empty())
+        source.fail_at(name.data(), fmt::format("the element {} has no number", quote(name)));
     if (!parse_integer(number, count) || count < 0)
         source.fail_at(name.data(), fmt::format("{} is not a number of elements", quote(number)));
     return {name, static_cast<std::uint64_t>(count)};
@@ -202,8 +204,12 @@ struct PlyBody {
     std::string_view rest;
     const PlyElement* element = nullptr;
     std::uint64_t item = 0;
+    std::string inside_line = {};  ///< text: the first item that begins behind another in its line
 
     bool is_text() const { return header.layout == Layout::text; }
+    bool begins_inside_line() const;
+    std::string hint() const;
+    [[noreturn]] void fail_at_end() const;
     /// "face 17": which item of the file is at fault, counted from 0.
     [[noreturn]] void fail(std::string_view raw, const std::string& fault) const;
     std::string_view take(const PlyType& type);
@@ -214,13 +220,34 @@ struct PlyBody {
     std::int64_t index(std::string_view raw, const PlyType& type, double lowest) const;
 
     void check_promise() const;
+    void read_element();
+    void remark_rest() const;
     void read_item();
     void read_face(const PlyProperty& corners);
     void read_strip(const PlyProperty& corners);
 };
 
+bool PlyBody::begins_inside_line() const {
+    std::size_t first = 0;
+    while (first < rest.size() && is_blank(rest[first])) ++first;
+    const std::string_view before(rest.data() - 1, first + 1);  // with the end of the last word
+    return first < rest.size() && before.find('\n') == std::string_view::npos;
+}
+
+/// Words may run on from line to line; but if one is at fault then, lines are likely to hold more
+/// or fewer of them than the header says.
+std::string PlyBody::hint() const {
+    if (inside_line.empty()) return "";
+    return fmt::format(" ({} begins inside a line: does the header name every column?)",
+                       inside_line);
+}
+
+void PlyBody::fail_at_end() const {
+    source.fail(fmt::format("the file ends inside {} {}{}", element->name, item, hint()));
+}
+
 void PlyBody::fail(std::string_view raw, const std::string& fault) const {
-    const std::string told = fmt::format("{} {}: {}", element->name, item, fault);
+    const std::string told = fmt::format("{} {}: {}{}", element->name, item, fault, hint());
     if (is_text()) source.fail_at(raw.data(), told);
     source.fail(told);
 }
@@ -229,12 +256,10 @@ void PlyBody::fail(std::string_view raw, const std::string& fault) const {
 std::string_view PlyBody::take(const PlyType& type) {
     if (is_text()) {
         const std::string_view word = take_word(rest);
-        if (word.empty())
-            source.fail(fmt::format("the file ends inside {} {}", element->name, item));
+        if (word.empty()) fail_at_end();
         return word;
     }
-    if (rest.size() < type.bytes)
-        source.fail(fmt::format("the file ends inside {} {}", element->name, item));
+    if (rest.size() < type.bytes) fail_at_end();
     const std::string_view bytes = rest.substr(0, type.bytes);
     rest.remove_prefix(type.bytes);
     return bytes;
@@ -345,6 +370,26 @@ void PlyBody::check_promise() const {
                         element->count, element->name, rest.size()));
 }
 
+void PlyBody::read_element() {
+    for (item = 0; item < element->count; ++item) {
+        if (is_text() && inside_line.empty() && begins_inside_line())
+            inside_line = fmt::format("{} {}", element->name, item);
+        read_item();
+    }
+}
+
+/// What stands behind the last element.
+void PlyBody::remark_rest() const {
+    std::string_view behind = rest;
+    const std::string_view word = take_word(behind);
+    if (!is_text() && !rest.empty())
+        mesh.remark = fmt::format("{} bytes after the last element passed over", rest.size());
+    if (!is_text() || word.empty()) return;
+    if (!inside_line.empty()) source.fail_at(word.data(), "numbers are left over" + hint());
+    mesh.remark = fmt::format("what follows the last element passed over, from line {} on",
+                              source.line_of(word.data()));
+}
+
 }  // namespace
 
 Polygons read_ply(Source& source) {
@@ -359,8 +404,9 @@ Polygons read_ply(Source& source) {
         body.check_promise();
         if (element.is_vertex()) mesh.points.reserve(element.count);
         if (element.is_face()) mesh.ends.reserve(element.count);
-        for (body.item = 0; body.item < element.count; ++body.item) body.read_item();
+        body.read_element();
     }
+    body.remark_rest();
     return mesh;
 }
 

@@ -30,9 +30,13 @@ int finish(const Options& options, const std::vector<ClaimAnswer>& answers,
     if (!options.small) {
         for (const Figure& figure : this_chapter.figures)
             if (figure.is_chart()) write_figure(figure, options);
-        print_heading("The sources' claims");
-        for (const ClaimAnswer& answer : answers)
-            fmt::print("{:4} {}: {}\n", answer.claim, name(answer.verdict), answer.measured);
+        print_heading(
+            "The sources' claims; docs/claims.json and the page \"Claims and verdicts\" word them");
+        for (const ClaimAnswer& answer : answers) {
+            const std::string line =
+                fmt::format("{:4} {}: {}", answer.claim, name(answer.verdict), answer.measured);
+            fmt::print("{}\n", wrapped(line, 5));
+        }
     }
     return exit_code(wrong_answers);
 }

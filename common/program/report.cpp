@@ -75,8 +75,25 @@ void Table::print() const {
     fmt::print("{}", text());
 }
 
+void print_remarks(std::string_view program, std::span<const std::string> remarks) {
+    for (const std::string& remark : remarks) fmt::print(stderr, "{}: note: {}\n", program, remark);
+}
+
 void print_heading(const std::string& text) {
     fmt::print("\n{}\n{}\n", text, std::string(shown_width(text), '='));
+}
+
+std::string wrapped(std::string_view text, std::size_t indent) {
+    constexpr std::size_t columns = 100;
+    std::string result;
+    for (std::size_t width = columns; shown_width(std::string(text)) > width;
+         width = columns - indent) {
+        const std::size_t blank = text.find_last_of(' ', width);
+        if (blank == text.npos) break;
+        result += fmt::format("{}\n{}", text.substr(0, blank), std::string(indent, ' '));
+        text.remove_prefix(blank + 1);
+    }
+    return result.append(text);
 }
 
 std::string with_commas(std::uint64_t number) {

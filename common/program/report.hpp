@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,12 @@ class Table {
     std::vector<std::vector<std::string>> rows_;
 };
 
+/// What a mesh's reader had to remark, a line each, to stderr: what is printed may be for a pipe.
+void print_remarks(std::string_view program, std::span<const std::string> remarks);
+
 void print_heading(const std::string& text);
+/// In lines of at most 100 columns, of which all but the first are indented.
+std::string wrapped(std::string_view text, std::size_t indent);
 /// 1234567 -> "1,234,567".
 std::string with_commas(std::uint64_t number);
 /// "1 ray", "1,234 rays".

@@ -3,6 +3,7 @@
 /// BlendSwap-CC-0.sh3f and Scopia.sh3f
 #include "common/mesh.hpp"
 #include "common/program/error.hpp"
+#include "common/program/report.hpp"
 #include "common/scenes/shapes.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 /// x = z = 0. The files are in any unit.
 TriangleMesh model(const fs::path& file, const Double3& size) {
     const TriangleMesh mesh = load_mesh(file);
+    print_remarks("assemble_scenes", mesh.remarks);
     const Aabb box = bounds(mesh);
     const Double3 extent(box.extent()), scale = size / extent;
     const Double3 foot{0.5 * (double(box.min.x) + box.max.x), box.min.y,

@@ -3,6 +3,8 @@
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 
+#include <algorithm>
+
 namespace space {
 
 TEST_CASE("columns fit their entries; numbers stand to the right, words to the left") {
@@ -33,6 +35,25 @@ TEST_CASE("tables and headings go to stdout") {
     table.row({"1"});
     CHECK(written_to(1, [&] { table.print(); }) == "n\n-\n1\n");
     CHECK(written_to(1, [] { print_heading("Möller"); }) == "\nMöller\n======\n");
+}
+
+TEST_CASE("a long text is wrapped at blanks to 100 columns, all lines but the first indented") {
+    CHECK(wrapped("short, as it is", 5) == "short, as it is");
+    std::string words;
+    for (int i = 0; i < 60; ++i) words += "word ";  // 300 columns with the last blank
+    words += "end";
+    const std::string lines = wrapped(words, 5);
+    CHECK(lines.find("\n     word") == 99);
+    std::size_t longest = 0, length = 0;
+    std::string again;
+    for (const char c : lines) {
+        length = c == '\n' ? 0 : length + 1;
+        longest = std::max(longest, length);
+        if (c != '\n' && !(c == ' ' && again.ends_with(' '))) again += c;
+    }
+    CHECK(longest <= 100);
+    CHECK(again == words);
+    CHECK(wrapped(std::string(300, 'x'), 5) == std::string(300, 'x'));
 }
 
 TEST_CASE("numbers get a comma after every three digits") {

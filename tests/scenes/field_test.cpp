@@ -168,7 +168,7 @@ TEST_CASE("OBJ: what says nothing about triangles is passed over, and unknown wo
         CHECK(fault(file) == "");
         std::string_view first = statement;
         first = first.substr(0, first.find(' '));
-        CHECK(load_mesh(file).remarks ==
+        CHECK(test::remarks(file) ==
               std::vector{fmt::format("2 statements skipped, the first '{}' in line 2", first)});
     }
     CHECK(load_mesh(
@@ -193,7 +193,26 @@ TEST_CASE("OFF: the keyword glued to the counts or left out, items over several 
         {"two_vertices_a_line.off", "OFF\n5 5 8\n0 0 0 8 0 0\n8 6 0 0 6 0\n4 3 4\n" + off_faces},
         {"one_line_colours.off",
          "COFF 5 5 8 " + replaced(lines("", " 1 0 0 1"), "\n", " ") + off_faces},
+        {"normals_texture.off",
+         "STCNOFF\n5 5 8\n" + lines("", " 0 0 1 1 0 0 1 0.5 0.5") + off_faces},
+        {"no_edges.off", "OFF\n5 5\n" + body},
+        {"no_edges_comments.off", "OFF # a\n5 5 # b\n\n# c\n" + body},
     });
+}
+
+TEST_CASE("what stands behind the last face is passed over, with a remark", "[mesh]") {
+    const test::Folder folder;
+    const std::string four = "element face 4\n", comment = "# made by hand\n";
+    const auto fewer = folder.write("a.ply", replaced(text_ply, "element face 5\n", four));
+    CHECK(load_mesh(fewer).faces.size() == 5);
+    CHECK(test::remarks(fewer) ==
+          std::vector<std::string>{"what follows the last element passed over, from line 19 on"});
+    const auto off_fewer = folder.write("a.off", comment + replaced(off, "5 5 8", "5 4 8"));
+    CHECK(load_mesh(off_fewer).faces.size() == 5);
+    CHECK(test::remarks(off_fewer) ==
+          std::vector<std::string>{"what follows the last face passed over, from line 13 on"});
+    CHECK(test::remarks(folder.write("b.off", off + "\n\n" + comment)).empty());
+    CHECK(test::remarks(folder.write("b.ply", text_ply + "\n \n")).empty());
 }
 
 // ---- PLY.
@@ -263,6 +282,30 @@ TEST_CASE("PLY: columns that are not used may hold anything", "[mesh]") {
     });
 }
 
+TEST_CASE("PLY: text whose lines hold other columns than the header names is refused and told so",
+          "[mesh]") {
+    const test::Folder folder;
+    const std::string hint = " begins inside a line: does the header name every column?)";
+    const auto refused = [&](const std::string& content, const std::string& first) {
+        const std::string told = complaint(folder.write("a.ply", content));
+        INFO(told);
+        CHECK(told.ends_with(" (" + first + hint));
+    };
+    refused(ply(ascii, lines("", " 255 0 0") + off_faces), "vertex 1");
+    refused(ply(ascii, lines("", " 0.5 0.5 1") + off_faces), "vertex 1");
+    refused(ply(ascii, lines("") + off_faces, "property float nx\nproperty float ny\n"),
+            "vertex 1");
+    // Here the numbers happen to fit, and some are left over.
+    const std::string few = "ply\nformat ascii 1.0\nelement vertex 3\n";
+    refused(few +
+                "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+                "property list uchar int vertex_index\nend_header\n"
+                "0 0 0 1\n0 0 0 1\n0 3 0 1\n2 0 0 0\n",
+            "vertex 1");
+    check_tents({{"one_line.ply", ply(ascii, replaced(lines("") + off_faces, "\n", " "))},
+                 {"a_word_a_line.ply", ply(ascii, replaced(lines("") + off_faces, " ", "\n"))}});
+}
+
 TEST_CASE("PLY: headers as writers make them", "[mesh]") {
     const std::string body = lines("") + off_faces;
     check_tents({
@@ -280,7 +323,7 @@ TEST_CASE("PLY: headers as writers make them", "[mesh]") {
     const test::Folder folder;
     const auto file = folder.write("a.ply", ply(ascii + "author x\nauthor y\n", body));
     CHECK(fault(file) == "");
-    CHECK(load_mesh(file).remarks ==
+    CHECK(test::remarks(file) ==
           std::vector<std::string>{"2 statements skipped, the first 'author' in line 3"});
 }
 
@@ -342,7 +385,7 @@ TEST_CASE("STL as text: its words in any case, glued, split, doubled", "[mesh]")
               .starts_with(":44: 'solid' out"));
     CHECK(complaint(folder.write("a.stl", facets())) ==
           ": not an STL file: text that begins with 'facet', not with 'solid'");
-    CHECK(load_mesh(folder.write("a.stl", replaced(stl, "endfacet", "endfacet\ncolor"))).remarks ==
+    CHECK(test::remarks(folder.write("a.stl", replaced(stl, "endfacet", "endfacet\ncolor"))) ==
           std::vector<std::string>{"6 statements skipped, the first 'color' in line 9"});
 }
 

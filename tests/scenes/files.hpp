@@ -10,6 +10,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace space::test {
 
@@ -43,6 +44,15 @@ inline std::string complaint(const std::filesystem::path& file) {
         return line.substr(file.string().size());
     }
     return "loaded";
+}
+
+/// What the loader remarks, without the file's name, which each remark begins with.
+inline std::vector<std::string> remarks(const std::filesystem::path& file) {
+    std::vector<std::string> all = load_mesh(file).remarks;
+    for (std::string& remark : all)
+        remark = remark.starts_with(file.string() + ": ") ? remark.substr(file.string().size() + 2)
+                                                          : "file not named: " + remark;
+    return all;
 }
 
 /// What every loaded mesh promises.

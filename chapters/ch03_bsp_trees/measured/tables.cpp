@@ -75,6 +75,23 @@ void print_scenes(const std::vector<TreePoint>& scenes, bool times) {
     table.print();
 }
 
+/// Why series ended before the largest size, those of one scene and reason together.
+void print_ends(const std::vector<Growth>& growth) {
+    const Growth* before = nullptr;
+    for (const Growth& g : growth) {
+        if (g.stopped.empty()) continue;
+        const bool same = before && before->scene == g.scene && before->stopped == g.stopped;
+        if (before && !same) fmt::print(": {}\n", before->stopped);
+        if (!before) fmt::print("\nNo larger size:\n");
+        if (same)
+            fmt::print(", {}", g.method);
+        else
+            fmt::print("{} by {}", g.scene, g.method);
+        before = &g;
+    }
+    if (before) fmt::print(": {}\n", before->stopped);
+}
+
 void print_growth(const std::vector<Growth>& growth, bool times) {
     print_heading(
         "Growth: the largest tree of each series, and slopes over all of it (log y over log n)");
@@ -82,7 +99,6 @@ void print_growth(const std::vector<Growth>& growth, bool times) {
                                       "depth",  "nodes per ray", "slopes: fragments", "depth",
                                       "placed", "nodes per ray"};
     if (times) headings.insert(headings.end(), {"build", "build, ms"});
-    headings.emplace_back("ended, because");
     Table table(headings);
     for (const Growth& g : growth) {
         const TreePoint& last = g.points.back();
@@ -101,10 +117,10 @@ void print_growth(const std::vector<Growth>& growth, bool times) {
             cells.push_back(slope_text(slope(g, [](const TreePoint& p) { return p.build_ms; })));
             cells.push_back(ms_text(last.build_ms));
         }
-        cells.push_back(g.stopped);
         table.row(cells);
     }
     table.print();
+    print_ends(growth);
 }
 
 void print_crossings(const std::vector<Crossings>& crossings) {
