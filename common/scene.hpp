@@ -7,6 +7,7 @@
 #include "common/mesh.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +56,9 @@ std::span<const SceneRecipe> scene_recipes();
 /// seed give the same scene, bit for bit, with every compiler.
 /// @throws Error (usage) for an unknown name or an absurd size, (bad_input) for a broken file
 Scene make_scene(std::string_view spec, std::uint64_t seed = 1, bool small = false);
+
+/// The file that this scene's mesh is read from; empty where it is made.
+std::filesystem::path scene_file(std::string_view spec);
 
 /// Camera and lights that show the whole mesh: for meshes that come without.
 void frame_mesh(Scene& scene);

@@ -182,6 +182,7 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     std::FILE* const out = options.json_to_stdout() ? stderr : stdout;
 
     const Scene scene = load(options);
+    print_remarks("lab", scene.mesh.remarks);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const std::size_t degenerate = count_degenerate(triangles);
     const RaySet set = make_rays(options, scene, triangles, structures);

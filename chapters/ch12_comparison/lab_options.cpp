@@ -2,6 +2,7 @@
 
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
+#include "common/scene.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ constexpr int max_repeat = 10'000;
 
 constexpr const char* formats = R"(
 Files
+  --mesh   OBJ, OFF, PLY or STL. What its reader passes over is said on standard error: lab: note:
   --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is
            origin + t direction with t in [tmin, tmax]; the direction need not have length 1. A ray
            with a NaN, an infinite origin or direction, a direction of zero or tmin > tmax is a
@@ -92,12 +94,19 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
                std::filesystem::weakly_canonical(b, error);
 }
 
+/// Does what is printed go to this file?
+bool is_redirected_to(const char* stream, const std::filesystem::path& file) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error) &&
+           std::filesystem::equivalent(stream, file, error);
+}
+
 void add_file_options(CLI::App& app, LabOptions& options) {
     const auto named = [](const std::string& text) {
         return text.empty() ? "give the name of a file" : std::string();
     };
     auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF");
-    app.add_option("--scene", options.common.scene, "a scene by name")
+    app.add_option("--scene", options.common.scene, "a scene by name, or 'list'")
         ->type_name("NAME[:SIZE]")
         ->excludes(mesh);
     auto* rays = app.add_option("--rays", options.rays,
@@ -167,6 +176,7 @@ LabOptions parse_lab_options(int argc, char** argv) {
         ->default_str(fmt::format("{}", options.repeat));
     app.add_flag("--check", options.check, "compare the answers with naive tracing");
     parse_command_line(app, argc, argv);
+    list_scenes_if_asked(options.common);
 
     options.structures = split(structures);
     options.query = query == "any" ? Query::any : Query::closest;
@@ -178,9 +188,14 @@ LabOptions parse_lab_options(int argc, char** argv) {
 }
 
 void check_outputs(const LabOptions& options) {
-    const std::string& scene = options.common.scene;  // it may be a file, or NAME:FILE
-    const std::filesystem::path inputs[] = {options.mesh, options.rays, scene,
-                                            scene.substr(scene.find(':') + 1)};
+    const std::filesystem::path inputs[] = {options.mesh, options.rays,
+                                            scene_file(options.common.scene)};
+    constexpr const char* streams[] = {"/dev/stdout", "/dev/stderr"};
+    for (const std::filesystem::path& input : inputs)
+        for (const char* stream : streams)
+            if (is_redirected_to(stream, input))
+                throw usage_error(fmt::format(
+                    "{}: this is an input, and what is printed goes there", input.string()));
     if (options.hits == "-") throw usage_error("--hits -: it needs a file");
     if (!options.hits.empty() && !options.json.empty() && same_file(options.hits, options.json))
         throw usage_error(
@@ -189,6 +204,10 @@ void check_outputs(const LabOptions& options) {
         for (const std::filesystem::path& input : inputs)
             if (!input.empty() && same_file(file, input))
                 throw usage_error(fmt::format("{} {}: this is an input", option, file.string()));
+        for (const char* stream : streams)
+            if (is_redirected_to(stream, file))
+                throw usage_error(
+                    fmt::format("{} {}: what is printed goes there, too", option, file.string()));
         std::error_code error;
         const std::filesystem::path directory = file.parent_path();
         if (!directory.empty() && !std::filesystem::exists(directory, error))

@@ -31,7 +31,9 @@ struct LabOptions {
     bool check = false;
     std::filesystem::path hits, json;
 
-    bool json_to_stdout() const { return json == "-" || json == "/dev/stdout"; }
+    bool json_to_stdout() const {
+        return json == "-" || json == "/dev/stdout" || json == "/dev/fd/1";
+    }
 };
 
 /// As on the command line.

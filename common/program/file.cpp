@@ -30,6 +30,14 @@ Error cannot_write(const std::filesystem::path& file) {
     return output_error(fmt::format("cannot write {}: {}", file.string(), fault()));
 }
 
+/// Where a link to a file leads: the link stays, and what it names is written.
+std::filesystem::path target_of(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_symlink(file, error) || !std::filesystem::is_regular_file(file, error))
+        return file;
+    return std::filesystem::canonical(file);
+}
+
 /// The file beside the target that is to take its name; what is left of it goes with this object.
 struct Part {
     std::string name;
@@ -98,7 +106,8 @@ std::string read_file(const std::filesystem::path& file) {
     return content;
 }
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
+void write_file(const std::filesystem::path& link, std::string_view content) {
+    const std::filesystem::path file = target_of(link);
     const Part part(file);
     std::size_t size = 0;
     while (size < content.size()) {
@@ -113,7 +122,8 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
     if (::rename(part.name.c_str(), file.c_str()) != 0) throw cannot_write(file);
 }
 
-void check_writable(const std::filesystem::path& file) {
+void check_writable(const std::filesystem::path& link) {
+    const std::filesystem::path file = target_of(link);
     const MissingDirectories made(file);
     const Part part(file);
 }

@@ -1,9 +1,12 @@
 #include "common/program/options.hpp"
 
 #include "common/program/error.hpp"
+#include "common/program/report.hpp"
+#include "common/scene.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -93,9 +96,29 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
         std::exit(app.exit(help));
+    } catch (const CLI::ExtrasError&) {
+        const std::vector<std::string> unknown = app.remaining();
+        throw usage_error(
+            fmt::format("{}: there is no such option (see --help)", fmt::join(unknown, " ")));
+    } catch (const CLI::ArgumentMismatch& error) {
+        const std::string what = error.what(), option = what.substr(0, what.find(':'));
+        const bool twice = what.find("At Most 1") != std::string::npos;
+        throw usage_error(fmt::format("{}: {} (see --help)", option,
+                                      twice ? "give it once" : "its value is missing"));
     } catch (const CLI::ParseError& error) {
         throw usage_error(fmt::format("{} (see --help)", error.what()));
     }
+}
+
+void list_scenes_if_asked(const Options& options) {
+    if (options.scene != "list") return;
+    Table table({"scene", "size", "largest", "what it is"});
+    for (const SceneRecipe& recipe : scene_recipes())
+        table.row({std::string(recipe.name),
+                   recipe.default_size ? with_commas(recipe.default_size) : "",
+                   recipe.max_size ? with_commas(recipe.max_size) : "", std::string(recipe.about)});
+    table.print();
+    std::exit(std::fflush(stdout) == 0 ? 0 : static_cast<int>(ExitCode::bad_output));
 }
 
 Options parse_options(int argc, char** argv, const ProgramInfo& program,
@@ -105,7 +128,8 @@ Options parse_options(int argc, char** argv, const ProgramInfo& program,
     // build.
     if (options.out == ".") options.out = fmt::format("build/out/{}", program.name.substr(0, 4));
     CLI::App app(program.about, std::string(program.name));
-    app.add_option("--scene", options.scene, "a scene by name (NAME or NAME:SIZE) or a mesh file")
+    app.add_option("--scene", options.scene,
+                   "a scene by name (NAME or NAME:SIZE), a mesh file, or 'list'")
         ->capture_default_str();
     app.add_flag("--small", options.small,
                  "a small run that prints counts only: the same on every machine");
@@ -123,6 +147,7 @@ Options parse_options(int argc, char** argv, const ProgramInfo& program,
     if (more) more(app);
     if (!program.examples.empty()) app.footer("Examples:\n" + program.examples);
     parse_command_line(app, argc, argv);
+    list_scenes_if_asked(options);
     if (options.threads == 0) options.threads = std::max(1u, std::thread::hardware_concurrency());
     return options;
 }

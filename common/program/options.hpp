@@ -72,6 +72,9 @@ void add_choice(CLI::App& app, const std::string& name, const std::vector<std::s
 /// --threads, --seed and --size, for programs that have other options than a chapter's.
 void add_common_options(CLI::App& app, Options& options);
 
+/// --scene list prints the scenes and exits 0, as --help does.
+void list_scenes_if_asked(const Options& options);
+
 /// Parses; --help prints and exits 0. @throws Error (usage) with one line that says what is wrong
 void parse_command_line(CLI::App& app, int argc, const char* const* argv);
 

@@ -29,10 +29,13 @@ TriangleMesh load_bunny() {
 }
 
 /// What ./book scenes fetches; the environment may name another folder.
-TriangleMesh load_fetched(const char* name) {
+std::filesystem::path fetched_file(std::string_view name) {
     const char* const folder = std::getenv("BOOK_SCENES");
-    const std::filesystem::path file =
-        std::filesystem::path(folder ? folder : "build/scenes") / name;
+    return std::filesystem::path(folder ? folder : "build/scenes") / fmt::format("{}.ply", name);
+}
+
+TriangleMesh load_fetched(std::string_view name) {
+    const std::filesystem::path file = fetched_file(name);
     if (!std::filesystem::exists(file))
         throw input_error(
             fmt::format("{}: not there; ./book scenes fetches it (BOOK_SCENES names its folder)",
@@ -45,22 +48,22 @@ void make_bunny(Scene& scene, std::uint32_t, std::uint64_t) {
     frame_mesh(scene);
 }
 void make_dragon_48k(Scene& scene, std::uint32_t, std::uint64_t) {
-    scene.mesh = load_fetched("dragon_48k.ply");
+    scene.mesh = load_fetched("dragon_48k");
     frame_mesh(scene);
 }
 void make_dragon_871k(Scene& scene, std::uint32_t, std::uint64_t) {
-    scene.mesh = load_fetched("dragon_871k.ply");
+    scene.mesh = load_fetched("dragon_871k");
     frame_mesh(scene);
 }
 void make_conference(Scene& scene, std::uint32_t, std::uint64_t) {
-    scene.mesh = load_fetched("conference.ply");
+    scene.mesh = load_fetched("conference");
     scene.camera = {.eye = {7.0f, 2.4f, 4.2f}, .target = {-2.0f, 0.6f, -0.5f}, .field_of_view = 60};
     for (const double x : {-5.0, 0.0, 5.0})
         add_light(scene, {x, 2.3, 0.3}, {x, 0.7, 0.0}, Color{0.50f, 0.48f, 0.44f});
     add_light(scene, {7.0, 2.3, 4.2}, {3.0, 0.7, 0.5}, Color{0.30f, 0.30f, 0.33f});
 }
 void make_forest(Scene& scene, std::uint32_t, std::uint64_t) {
-    scene.mesh = load_fetched("forest.ply");
+    scene.mesh = load_fetched("forest");
     scene.camera = {.eye = {11.0f, 3.5f, 11.0f}, .target = {0.0f, 2.0f, 0.0f}, .field_of_view = 45};
     scene.background = srgb(0xBFDCEC);
     add_light(scene, {300, 500, 250}, {0, 0, 0}, Color{0.95f, 0.88f, 0.75f});
@@ -120,6 +123,11 @@ const Maker* find_maker(std::string_view name) {
     return found == std::end(makers) ? nullptr : &*found;
 }
 
+/// "12", "bunny", "mesh.obj" in "room:mesh.obj": does it name a file?
+bool is_path(std::string_view text) {
+    return text.find_first_of("./") != std::string_view::npos;
+}
+
 std::string all_names() {
     std::string names;
     for (const Maker& maker : makers)
@@ -177,8 +185,7 @@ Scene make_scene(std::string_view spec, std::uint64_t seed, bool small) {
     const std::string_view name = spec.substr(0, colon);
     const Maker* const maker = find_maker(name);
     if (!maker) {
-        if (spec.find_first_of("./") != std::string_view::npos)
-            return load_scene(std::string(spec));
+        if (is_path(spec)) return load_scene(std::string(spec));
         throw usage_error(fmt::format(
             "no scene is called '{}': give a mesh file (.obj, .off, .ply, .stl) or one of {}", name,
             all_names()));
@@ -192,11 +199,22 @@ Scene make_scene(std::string_view spec, std::uint64_t seed, bool small) {
     const std::string_view argument = spec.substr(colon + 1);
     if (name == "room" && argument == "bunny")
         make_room_with(scene, load_bunny());
-    else if (name == "room" && argument.find_first_of("./") != std::string_view::npos)
+    else if (name == "room" && is_path(argument))
         make_room_with(scene, load_mesh(std::string(argument)));
     else
         maker->make(scene, parse_size(maker->recipe, argument), seed);
     return scene;
+}
+
+std::filesystem::path scene_file(std::string_view spec) {
+    const std::size_t colon = spec.find(':');
+    const std::string_view name = spec.substr(0, colon);
+    const Maker* const maker = find_maker(name);
+    if (!maker) return is_path(spec) ? spec : "";
+    const std::string_view argument = colon == std::string_view::npos ? "" : spec.substr(colon + 1);
+    if (name == "bunny" || argument == "bunny") return bunny_file;
+    if (maker->recipe.from_file) return fetched_file(name);
+    return is_path(argument) ? argument : "";
 }
 
 void frame_mesh(Scene& scene) {

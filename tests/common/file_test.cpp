@@ -68,6 +68,18 @@ TEST_CASE("a missing directory is made, an old file replaced") {
     CHECK(entries(directory.path()) == 3);
 }
 
+TEST_CASE("what a link names is written, and the link stays") {
+    const TemporaryDirectory directory;
+    const auto file = directory.path() / "file", link = directory.path() / "link";
+    write_file(file, "old");
+    std::filesystem::create_symlink("file", link);
+    check_writable(link);
+    write_file(link, "new");
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(read_file(file) == "new");
+    CHECK(entries(directory.path()) == 2);
+}
+
 TEST_CASE("reading what cannot be read names the file and the fault") {
     const TemporaryDirectory directory;
     const std::string missing = (directory.path() / "none").string();

@@ -7,6 +7,7 @@
 #include "chapters/ch12_comparison/check.hpp"
 #include "common/mesh.hpp"
 #include "common/random.hpp"
+#include "common/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/lab/files.hpp"
 #include "tests/lab/process.hpp"
@@ -442,6 +443,10 @@ TEST_CASE("without --structure one of each chapter is measured; all and list nam
         CHECK(tests.out.find(variant.triangle_test) != std::string::npos);
     CHECK(structures().back().variants.front().triangle_test == "filtered-exact");
     CHECK(run(lab.with("--help")).code == 0);
+    const Ended scenes = run(lab.with("--scene list"));
+    CHECK(scenes.code == 0);
+    for (const SceneRecipe& recipe : scene_recipes())
+        CHECK(scenes.out.find(fmt::format("\n{} ", recipe.name)) != std::string::npos);
 }
 
 TEST_CASE(
@@ -551,7 +556,9 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
         {mesh.with("--repeat 0x3"), 2, "--repeat 0x3"},
         {mesh.with("--seed x"), 2, "--seed"},
         {mesh.with("--seed -1"), 2, "--seed -1"},
-        {mesh.with("--no-such-option"), 2, "--no-such-option"},
+        {mesh.with("--no-such-option 1"), 2, "--no-such-option 1: there is no such option"},
+        {mesh.with("--seed 1 --seed 2"), 2, "--seed: give it once"},
+        {mesh.with("--structure naive --seed"), 2, "--seed: its value is missing"},
         {mesh.with("--structure naive,embree"), 2, "embree"},
         {mesh.with("--against bsp"), 2, "bsp"},
         {mesh.with("--max-references 0"), 2, "--max-references"},
@@ -608,15 +615,75 @@ TEST_CASE("no output is an input or another output") {
             "input");
     for (const char* option : {"--hits", "--json", "--mesh", "--rays"})
         refused(lab.with("--scene soup:50 --structure naive").with(option).with_word(""), option);
+    const Command fetched = Command{.words = {"env"}}
+                                .with_word("BOOK_SCENES=" + (bench / "").string())
+                                .with(scene)
+                                .with("--scene forest");
+    write_ply(bench / "forest.ply", row_of_triangles(3));
+    refused(fetched.with("--json", bench / "forest.ply"), "input");
     refused(naive.with("--hits -"), "--hits -");
     CHECK(read_file(bench / "row.ply") == mesh);
     CHECK(read_file(bench / "rays") == rays);
     CHECK(!std::filesystem::exists(bench / "new"));
 }
 
+TEST_CASE("what is printed goes into no input and into no file of results") {
+    const Workbench bench;
+    write_ply(bench / "row.ply", row_of_triangles(3));
+    write_rays(bench / "rays", std::array{ray_down(0)});
+    std::filesystem::create_hard_link(bench / "row.ply", bench / "twin");
+    const std::string mesh = read_file(bench / "row.ply");
+    const auto refused = [&](const Command& options, const char* redirection, const char* file) {
+        const Command shell = Command{.words = {"bash", "-c"}}
+                                  .with_word(std::string("\"${@:2}\" ") + redirection + " \"$1\"")
+                                  .with_word("bash")
+                                  .with(bench / file);
+        const Ended ended = run(
+            shell.with(lab).with(files(bench, "row.ply")).with("--structure naive").with(options));
+        INFO(options.text() << redirection << file);
+        CHECK(ended.code == 2);
+    };
+    for (const char* redirection : {">>", "2>>"}) {
+        refused({}, redirection, "row.ply");
+        refused({}, redirection, "twin");
+        refused(Command{}.with("--json -"), redirection, "rays");
+        for (const char* output : {"--hits", "--json"})
+            refused(Command{}.with(output, bench / "out"), redirection, "out");
+    }
+    refused(Command{}.with("--json - --hits", bench / "out"), ">", "out");
+    refused(Command{}.with("--hits /dev/stdout"), ">", "out");
+    CHECK(read_file(bench / "row.ply").starts_with(mesh));
+}
+
+TEST_CASE("what the reader of the mesh remarks goes to standard error, a line each") {
+    const Workbench bench;
+    write_file(bench / "row.obj",
+               "mg 1 0.5\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 2\nl 1 2\n");
+    const std::string file = (bench / "row.obj").string();
+    const std::string told =
+        "lab: note: " + file +
+        ": 2 statements skipped, the first 'mg' in line 1\nlab: note: " + file +
+        ": 1 face encloses nothing: left out\n";
+    const Command naive = lab.with("--structure naive --repeat 1 --size 4x3");
+    for (const Command& mesh :
+         {Command{}.with("--mesh", bench / "row.obj"), Command{}.with("--scene", bench / "row.obj"),
+          Command{}.with_word("--scene").with_word("room:" + file)}) {
+        INFO(mesh.text());
+        const Ended ended = run(naive.with(mesh).with("--json -"));
+        CHECK(ended.code == 0);
+        CHECK(ended.err.starts_with(told));
+        CHECK(nlohmann::json::parse(ended.out)["version"] == 2);
+        const Ended tables = run(naive.with(mesh));
+        CHECK(tables.err == told);
+        CHECK(tables.out.starts_with("mesh    "));
+    }
+    write_ply(bench / "row.ply", row_of_triangles(3));
+    CHECK(run(naive.with("--mesh", bench / "row.ply")).err.empty());
+}
+
 TEST_CASE("--json - writes to standard output, and the tables go to standard error") {
     const Workbench bench;
-    for (const char* where : {"-", "/dev/stdout"}) {
+    for (const char* where : {"-", "/dev/stdout", "/dev/fd/1"}) {
         const Ended ended =
             run(lab.with("--scene soup:50 --size 4x3 --structure naive --repeat 1 --check --json")
                     .with(where));
