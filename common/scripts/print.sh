@@ -1,10 +1,10 @@
 # shellcheck shell=bash
-# The whole book as one PDF: Chromium prints each page of the site, poppler puts them together. Sourced by ./book.
+# The whole book as one PDF: Chromium prints each page of the site, join_pages.py puts them together. Sourced by ./book.
 
-# The pages in the order of the menu, without those of the code.
+# The pages in the order of the menu, without those of the code: each a line, file and title with a tab between them.
 pages_of_the_book() {
-    printf 'index.html\n'
-    sed -n -e '/^    \[ "Code"/q' -e 's/^    \[ ".*", "\([^"]*\.html\)", null \],*$/\1/p' "$1/navtreedata.js"
+    printf 'index.html\tThe book\n'
+    sed -n -e '/^    \[ "Code"/q' -e 's/^    \[ "\(.*\)", "\([^"]*\.html\)", null \],*$/\2\t\1/p' "$1/navtreedata.js"
 }
 
 # print_page PAGE PDF NUMBER: one page of the site, whose first sheet has the number
@@ -12,7 +12,8 @@ print_page() {
     local -a sandbox=()
     ((EUID != 0)) || sandbox=(--no-sandbox)  # Chromium has none for root
     "$browser" --headless "${sandbox[@]}" --disable-gpu --disable-dev-shm-usage --user-data-dir="$work/profile" \
-        --virtual-time-budget=60000 --no-pdf-header-footer --print-to-pdf="$2" "file://$out/site/$1?sheet=$3" \
+        --virtual-time-budget=60000 --no-pdf-header-footer --generate-pdf-document-outline --print-to-pdf="$2" \
+        "file://$out/site/$1?sheet=$3" \
         >"$log/print.txt" 2>&1 || { cat "$log/print.txt" >&2; die 1 "printing $1 failed"; }
     [[ -s $2 ]] || { cat "$log/print.txt" >&2; die 1 "printing $1 failed"; }
     # Formulas are set by a script: was it done before the page was printed?
@@ -20,8 +21,7 @@ print_page() {
 }
 
 command_print() {
-    local page browser='' tool sheet=1
-    local -a parts=()
+    local page title browser='' tool sheet=1
     (($# == 0)) || die 2 'print: takes no more'
     step_count=5
     set_up build run print
@@ -29,22 +29,25 @@ command_print() {
         [[ -n $browser ]] || browser=$(command -v "$tool") || true
     done
     [[ -n $browser ]] || die 3 'print: needs Chromium, which is not there (Debian: apt-get install chromium)'
-    for tool in pdfunite pdfinfo pdftotext; do
+    for tool in pdfinfo pdftotext; do
         command -v "$tool" >/dev/null || die 3 "print: needs $tool, which is not there (Debian: apt-get install poppler-utils)"
     done
+    /usr/bin/python3 -c 'import pypdf' 2>/dev/null ||
+        die 3 'print: needs pypdf, which is not there (Debian: apt-get install python3-pypdf)'
     configure_once release
     [[ -f $root/build/release/Doxyfile ]] || die 3 'print: there are no pages to print: ./book docs says what they need'
     make_pages >/dev/null
     work=$(mktemp -d -p "$root/build")
     trap 'rm -rf "$work"' EXIT
     step 'Printing'
-    while read -r page; do
+    while IFS=$'\t' read -r page title; do
         print_page "$page" "$work/$page.pdf" "$sheet"
         say "      $sheet: $page"
         sheet=$((sheet + $(pdfinfo "$work/$page.pdf" | sed -n 's/^Pages: *//p')))
-        parts+=("$work/$page.pdf")
+        printf '%s\t%s\t%s\n' "$work/$page.pdf" "$page" "$title" >>"$work/parts.txt"
     done < <(pages_of_the_book "$out/site")
-    pdfunite "${parts[@]}" "$work/book.pdf" || die 1 'putting the pages together failed'
+    /usr/bin/python3 "$root/common/scripts/join_pages.py" "$work/book.pdf" <"$work/parts.txt" ||
+        die 1 'putting the pages together failed'
     mv "$work/book.pdf" "$out/splitting_space.pdf"
     printf '\nThe book, %d pages: %s\n' "$((sheet - 1))" "$out/splitting_space.pdf"
 }
