@@ -25,7 +25,7 @@ window.MathJax = {
   showMathMenu: false,
   messageStyle: "none",
   tex2jax: { inlineMath: [["\\(", "\\)"]], displayMath: [["\\[", "\\]"]] },
-  SVG: { font: "TeX", scale: 92, linebreaks: { automatic: true, width: "container" } },
+  SVG: { font: "TeX", scale: 92 },  // a formula wider than the page scrolls: broken, it can't be read
   TeX: { noErrors: { disabled: true }, noUndefined: { disabled: true } },
   AuthorInit() {
     for (const fault of ["TeX Jax - parse error", "TeX Jax - undefined macro", "Math Processing Error"])
@@ -46,14 +46,20 @@ function load(script) {
 // Letters without accents, in lower case: "Möller" is found as "moller" too.
 const plain = (text) => text.normalize("NFD").replace(/\p{Mark}/gu, "").toLowerCase();
 
-// All words must occur; a word of the heading counts most, then one that starts a word of the text.
+const startsWord = (text, at) => !/[\p{L}\p{N}]/u.test(text[at - 1] ?? " ");
+
+// All words must occur; a word of the heading counts most, then one that starts a word of the text: "NaN" before
+// "discriminant".
 function score(entry, words) {
   let sum = 0;
   for (const word of words) {
     const inTitle = entry.plainTitle.indexOf(word), inText = entry.plainText.indexOf(word);
     if (inTitle < 0 && inText < 0) return 0;
-    if (inTitle >= 0) sum += entry.plainTitle === word ? 40 : /\W/.test(entry.plainTitle[inTitle - 1] ?? " ") ? 20 : 8;
-    if (inText >= 0) sum += Math.min(4, entry.plainText.split(word).length - 1);
+    if (inTitle >= 0) sum += entry.plainTitle === word ? 40 : startsWord(entry.plainTitle, inTitle) ? 20 : 2;
+    let starts = 0;
+    for (let at = inText; at >= 0 && starts < 4; at = entry.plainText.indexOf(word, at + 1))
+      starts += startsWord(entry.plainText, at);
+    sum += starts || (inText >= 0 ? 0.25 : 0);
   }
   return sum * (entry.book ? 2 : 1);
 }
@@ -182,8 +188,13 @@ document.addEventListener("DOMContentLoaded", () => {
     box.append(table);
   }
 
-  // The box that opens the menu on a phone is Doxygen's, made when the page is ready.
-  window.addEventListener("load", () => document.getElementById("main-menu-state")?.setAttribute("aria-label", "Menu"));
+  // The menu of a phone and the box that opens it are Doxygen's, which makes them with jQuery, just before this.
+  $(() => {
+    document.getElementById("main-menu-state")?.setAttribute("aria-label", "Menu");
+    const here = location.pathname.split("/").pop();
+    for (const link of document.querySelectorAll("#main-menu a"))
+      if (link.getAttribute("href") === here) link.setAttribute("aria-current", "page");
+  });
 
   const field = document.getElementById("MSearchField"), results = document.createElement("div");
   results.id = "search-results";

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -81,7 +82,7 @@ std::string inline_drawings(const std::string& page, const std::filesystem::path
                 if (const std::string id = attribute(rest.substr(at), "id"); !ids.insert(id).second)
                     throw input_error(fmt::format(
                         "{}: the page already has an element with the id {}", file.string(), id));
-            return drawing + list_of_steps(drawing);
+            return "<div class=\"drawing\">" + drawing + "</div>\n" + list_of_steps(drawing);
         });
 }
 
@@ -124,17 +125,123 @@ std::string dedent_fragments(const std::string& page) {
         });
 }
 
+/// What Doxygen knows of a word in code is its spelling. So a link is kept where that is enough:
+/// for types, files, constants, functions that are called and enumerators after their type's name.
+/// A local variable may be spelled as a member of anything.
+std::string without_guesses(const std::string& page) {
+    constexpr std::string_view open = "<a class=\"code hl_", close = "</a>";
+    std::string result;
+    std::string_view rest = page;
+    for (std::size_t at; (at = rest.find(open)) != rest.npos;) {
+        result.append(rest.substr(0, at));
+        rest.remove_prefix(at);
+        const std::size_t end = rest.find(close);
+        if (end == rest.npos) break;
+        const std::string_view link = rest.substr(0, end + close.size());
+        const std::string_view word = link.substr(link.find('>') + 1, end - link.find('>') - 1);
+        rest.remove_prefix(link.size());
+        const std::string kind = attribute(link, "class"), there = attribute(link, "href");
+        const bool of_a_type = there.starts_with("struct") || there.starts_with("class");
+        const bool sure =
+            kind == "code hl_function"    ? rest.starts_with('(') || rest.starts_with("&lt;")
+            : kind == "code hl_variable"  ? !of_a_type
+            : kind == "code hl_enumvalue" ? word.find("::") != word.npos || result.ends_with("::")
+                                          : true;
+        result.append(sure ? link : word);
+    }
+    return result.append(rest);
+}
+
+namespace {
+
+/// Words with hyphens and folders of a path in inline code, each as one.
+std::string whole_words(std::string_view code) {
+    constexpr std::size_t longest = 32;  // it must fit into a phone's line
+    std::string result;
+    while (!code.empty()) {
+        const std::size_t end = std::min(code.find_first_of(" /"), code.size() - 1) + 1;
+        const std::string_view piece = code.substr(0, end);
+        const bool breaks = piece.find_first_of("-/") != piece.npos && piece.size() <= longest;
+        result +=
+            breaks ? fmt::format("<span class=\"word\">{}</span>", piece) : std::string(piece);
+        code.remove_prefix(end);
+    }
+    return result;
+}
+
+/// A formula that is not long keeps what is written against it: "(" before, "." or "-gon" after.
+std::string with_punctuation(std::string_view page) {
+    constexpr std::string_view open = "\\(", close = "\\)";
+    constexpr std::size_t longest = 60;
+    std::string result;
+    for (std::size_t at; (at = page.find(open)) != page.npos;) {
+        const std::size_t end = page.find(close, at);
+        if (end == page.npos) break;
+        std::size_t first = at, last = end + close.size();
+        const bool is_short = last - first <= longest;
+        while (is_short && first > 0 && page[first - 1] == '(') --first;
+        while (is_short && last < page.size() &&
+               std::string_view(" \n<").find(page[last]) == std::string_view::npos)
+            ++last;
+        const bool is_alone = first == at && last == end + close.size();
+        result.append(page.substr(0, first));
+        const std::string_view formula = page.substr(first, last - first);
+        result += is_alone ? std::string(formula)
+                           : fmt::format("<span class=\"word\">{}</span>", formula);
+        page.remove_prefix(last);
+    }
+    return result.append(page);
+}
+
+}  // namespace
+
+std::string kept_together(const std::string& page) {
+    constexpr std::string_view open = "<code>", close = "</code>";
+    const std::string coded = replace_between(page, open, close, [&](std::string_view element) {
+        const std::string_view code =
+            element.substr(open.size(), element.size() - open.size() - close.size());
+        return code.find('<') == code.npos ? fmt::format("{}{}{}", open, whole_words(code), close)
+                                           : std::string(element);
+    });
+    return with_punctuation(coded);
+}
+
+std::string with_alternatives(const std::string& page) {
+    return replace_between(page, "<img src=\"fig_", "</div></div>", [](std::string_view image) {
+        constexpr std::string_view none = "alt=\"\"", caption = "<div class=\"caption\">\n";
+        const std::size_t alt = image.find(none), text = image.find(caption);
+        if (alt == image.npos || text == image.npos) return std::string(image);
+        const std::string_view words = image.substr(text + caption.size());
+        return fmt::format("{}alt=\"{}\"{}", image.substr(0, alt),
+                           words.substr(0, words.find("</div>")), image.substr(alt + none.size()));
+    });
+}
+
+std::string menu_without_scripts(const std::string& navigation) {
+    static const std::regex entry("\\n    \\[ \"([^\"]*)\", \"([^\"]*\\.html)\", null \\]");
+    std::string menu = "<noscript><nav class=\"plain-menu\"><a href=\"index.html\">The book</a>";
+    for (std::sregex_iterator at(navigation.begin(), navigation.end(), entry), end; at != end; ++at)
+        menu += fmt::format(" <a href=\"{}\">{}</a>", at->str(2), at->str(1));
+    return menu + " <a href=\"files.html\">Code</a></nav></noscript>\n";
+}
+
 std::string without_summary(const std::string& page) {
     return replace_between(page, "<div class=\"summary\">", "</div>",
                            [](std::string_view) { return ""; });
 }
 
 void finish_pages(const std::filesystem::path& site) {
-    for (const auto& entry : std::filesystem::directory_iterator(site))
-        if (entry.path().extension() == ".html")
-            write_file(
-                entry.path(),
-                without_summary(dedent_fragments(inline_drawings(read_file(entry.path()), site))));
+    const std::string menu = menu_without_scripts(read_file(site / "navtreedata.js"));
+    for (const auto& entry : std::filesystem::directory_iterator(site)) {
+        if (entry.path().extension() != ".html") continue;
+        std::string page = read_file(entry.path());
+        page = kept_together(without_guesses(dedent_fragments(without_summary(page))));
+        page = inline_drawings(with_alternatives(page), site);
+        constexpr std::string_view content = "<div id=\"doc-content\">\n";
+        if (const std::size_t at = page.find(content); at != page.npos)
+            page.insert(at + content.size(), menu);
+        write_file(entry.path(), page);
+    }
 }
 
 }  // namespace space::docs

@@ -18,6 +18,20 @@ std::string inline_drawings(const std::string& page, const std::filesystem::path
 /// Quoted code loses the indentation that all of its lines share.
 std::string dedent_fragments(const std::string& page);
 
+/// Links in code that rest on a word's spelling alone go.
+std::string without_guesses(const std::string& page);
+
+/// No line ends inside an option such as --query or a folder of a path, nor between a formula and
+/// the full stop behind it.
+std::string kept_together(const std::string& page);
+
+/// A picture's caption is its text for those who don't see it.
+std::string with_alternatives(const std::string& page);
+
+/// The book's pages as links, for readers without scripts; Doxygen makes its menu by one, from
+/// navtreedata.js.
+std::string menu_without_scripts(const std::string& navigation);
+
 /// The line of links to the parts of a page of the code goes: some lead nowhere (Doxygen 1.9.4,
 /// private classes).
 std::string without_summary(const std::string& page);

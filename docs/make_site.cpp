@@ -9,8 +9,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <sys/wait.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -56,8 +58,11 @@ void run_doxygen(const docs::Places& places, const fs::path& site) {
     fs::create_directories(site);
     const std::string command =
         fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, (work / "Doxyfile").string());
-    if (std::system(command.c_str()) != 0)
-        throw input_error("Doxygen has warnings or failed; its lines above say where");
+    const int status = std::system(command.c_str());
+    constexpr int interrupted = 128 + SIGINT;  // a shell's word for it
+    if (WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == interrupted)
+        std::raise(SIGINT);  // which std::system kept from us
+    if (status != 0) throw input_error("Doxygen has warnings or failed; its lines above say where");
 }
 
 int make_site(int argc, char** argv) {

@@ -188,6 +188,20 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
     return raw("<ol class=\"chapters\">\n" + rows + "</ol>\n");
 }
 
+/// Powers, indices and arrows as they are set in a book; results and heads of exercises are plain
+/// text, which is read on a terminal, too.
+std::string typeset(std::string text) {
+    static const std::pair<std::regex, const char*> rules[] = {
+        {std::regex(R"(\^-(\w+))"), "<sup>−$1</sup>"},
+        {std::regex(R"(\^(\w+))"), "<sup>$1</sup>"},
+        {std::regex(R"(\blog2\b)"), "log<sub>2</sub>"},
+        {std::regex(R"(\s-(>|&gt;)\s)"), " → "},
+        {std::regex(R"((>|&gt;)= )"), "≥ "},
+        {std::regex(R"(\n\*)"), " *"}};  // Doxygen takes away what begins a comment's line
+    for (const auto& [plain, set] : rules) text = std::regex_replace(text, plain, set);
+    return text;
+}
+
 std::string exercises_page(const std::vector<Chapter>& chapters,
                            const std::vector<Exercise>& exercises) {
     std::string text =
@@ -221,7 +235,7 @@ std::string exercises_page(const std::vector<Chapter>& chapters,
                 raw(fmt::format("<p class=\"effort\"><span title=\"difficulty {} of 3\">{}</span> "
                                 "about {} minutes</p>\n",
                                 exercise.difficulty, dots, exercise.minutes));
-            text += exercise.task + "\n";
+            text += typeset(exercise.task) + "\n";
             text += fmt::format(
                 "Edit `chapters/{}/exercises/{}.hpp`, then run\n\n    ./book exercise check {}\n\n",
                 exercise.chapter, exercise.name, exercise.id);
@@ -276,12 +290,13 @@ std::string claim_card(const Claim& claim, const Answer* answer) {
         "<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p "
         "class=\"says\">{}</p>\n",
         answer ? answer->verdict : "open", claim.id, source_links({claim.source}), note,
-        badge(answer ? answer->verdict : "no answer yet"), xml_escaped(claim.text));
+        badge(answer ? answer->verdict : "no answer yet"), typeset(xml_escaped(claim.text)));
     if (answer)
         card += fmt::format(
             "<dl><dt>Measured</dt><dd>{}</dd><dt>Scene</dt><dd>{}</dd><dt>Rule</dt><dd>{}</dd></"
             "dl>\n",
-            xml_escaped(answer->measured), xml_escaped(answer->scene), xml_escaped(answer->rule));
+            typeset(xml_escaped(answer->measured)), typeset(xml_escaped(answer->scene)),
+            typeset(xml_escaped(answer->rule)));
     return fmt::format("\\anchor claim_{}\n{}", claim.id, raw(card + "</div>\n"));
 }
 

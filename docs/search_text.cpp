@@ -22,16 +22,35 @@ std::string_view between(std::string_view text, std::string_view open, std::stri
     return text.substr(first, text.find(close, first) - first);
 }
 
+/// A formula as words and signs: what one would say or type for it.
+std::string plain_formula(std::string formula) {
+    static const std::pair<std::regex, const char*> rules[] = {
+        {std::regex(R"(\\(begin|end)\{\w+\**\}|\\(left|right|[bB]ig+[lr]?)(?![a-zA-Z]))"), ""},
+        {std::regex(R"(\\(mathit|mathrm|mathbf|text|operatorname|hat|tilde|bar)(?![a-zA-Z]))"), ""},
+        {std::regex(R"(\\frac\s*(\w|\{[^{}]*\})\s*(\w|\{[^{}]*\}))"), "$1 / $2"},
+        {std::regex(R"(\\cdot(?![a-zA-Z]))"), "·"},
+        {std::regex(R"(\\times(?![a-zA-Z]))"), "×"},
+        {std::regex(R"(\\(leq?)(?![a-zA-Z]))"), "≤"},
+        {std::regex(R"(\\(geq?)(?![a-zA-Z]))"), "≥"},
+        {std::regex(R"(\\infty(?![a-zA-Z]))"), "∞"},
+        {std::regex(R"(\\(l?dots|cdots)(?![a-zA-Z]))"), "…"},
+        {std::regex(R"(\\[,;:! |])"), " "},
+        {std::regex(R"(\\\\|&amp;)"), " "},
+        {std::regex(R"([{}])"), ""},
+        {std::regex(R"(\\(?:var)?([a-zA-Z]+))"), "$1"},
+        {std::regex(R"(\s+)"), " "}};
+    for (const auto& [tex, plain] : rules) formula = std::regex_replace(formula, tex, plain);
+    return formula;
+}
+
 /// The text that a reader sees: no tags, no drawings, entities as characters, single spaces.
 std::string visible_text(std::string_view markup) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 3> hidden{
         {{"<svg", "</svg>"}, {"<span class=\"permalink\">", "</span>"}, {"<!--", "-->"}}};
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> entities{
-        {{"\\(", ""},
-         {"\\)", ""},
-         {"\\[", ""},
-         {"\\]", ""},  // a formula's ends
-         {"&lt;", "<"},
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 2> formulas{
+        {{"\\(", "\\)"}, {"\\[", "\\]"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> entities{
+        {{"&lt;", "<"},
          {"&gt;", ">"},
          {"&amp;", "&"},
          {"&quot;", "\""},
@@ -50,6 +69,13 @@ std::string visible_text(std::string_view markup) {
     };
     while (!markup.empty()) {
         if (skip(hidden, [&](std::string_view, std::string_view close) {
+                const std::size_t end = markup.find(close);
+                markup.remove_prefix(end == markup.npos ? markup.size() : end + close.size());
+            }))
+            continue;
+        if (skip(formulas, [&](std::string_view open, std::string_view close) {
+                text += visible_text(plain_formula(std::string(between(markup, open, close))));
+                markup.remove_prefix(open.size());
                 const std::size_t end = markup.find(close);
                 markup.remove_prefix(end == markup.npos ? markup.size() : end + close.size());
             }))

@@ -238,6 +238,20 @@ else:
 if run("return document.getElementById('main-menu-state')?.getClientRects().length"):
     fault("keyboard", "the phone's menu box is in the way")
 
+# The menu: a phone's marks the page, and without scripts there is one, too.
+window(390)
+open_page("exercises.html")
+if run("return [...document.querySelectorAll('#main-menu a[aria-current=page]')].map((a) => a.textContent)") != ["Exercises"]:
+    fault("menu", "a phone's does not mark the page")
+chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=True))
+for width in (390, 1280):
+    window(width)
+    chromium.get((site / "exercises.html").as_uri())
+    names = run("return [...document.querySelectorAll('.plain-menu a')].filter((a) => a.getClientRects().length).map((a) => a.textContent)")
+    if "Exercises" not in names or "Glossary" not in names or "Code" not in names:
+        fault("menu", f"without scripts it has {names}")
+chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
+
 # On paper: light colours from a dark page, too; nothing to press, nothing that scrolls, every sentence of the steps.
 printed = """
     const shown = (selector) => [...document.querySelectorAll(selector)].filter((e) => e.getClientRects().length).length;
@@ -370,6 +384,17 @@ for word in ("Möller", "moller", "rasteriser", "closest_hit"):
     text = run("return document.body.textContent.normalize('NFD').replace(/\\p{Mark}/gu, '').toLowerCase()")
     if word.replace("ö", "o").lower() not in text:
         fault("search", f"{word}: the page {chromium.current_url} does not have the word")
+# Words that begin so come before those in which the letters stand somewhere: NaN before discriminant.
+open_page("index.html")
+chromium.find_element(By.ID, "MSearchField").send_keys("nan")
+wait("document.querySelectorAll('#search-results a').length")
+for text in results()[:3]:
+    if not re.search(r"\bnan", text, re.IGNORECASE):
+        fault("search", f"finds {text!r} first for nan")
+for text in run("return window.bookText.map((entry) => entry.text)"):
+    if re.search(r"\\(frac|cdot|le|times|mathrm|varepsilon)\b", text):
+        fault("search", f"shows raw formulas: {text[:80]}")
+        break
 open_page("index.html")
 chromium.find_element(By.ID, "MSearchField").send_keys("xyzzyplugh")
 wait("document.getElementById('search-results').textContent")

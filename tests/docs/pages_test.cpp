@@ -11,6 +11,7 @@
 
 using namespace space;
 using namespace space::docs;
+using namespace std::string_literals;
 
 namespace {
 
@@ -34,7 +35,7 @@ TEST_CASE("a drawing becomes part of its page, without the XML declaration") {
     write_file(folder.path / "a.svg",
                "<?xml version=\"1.0\"?>\n<svg id=\"a\"><g id=\"a-x\"/></svg>\n");
     CHECK(inline_drawings("<p>" + picture("a.svg") + "</p>", folder.path) ==
-          "<p><svg id=\"a\"><g id=\"a-x\"/></svg>\n</p>");
+          "<p><div class=\"drawing\"><svg id=\"a\"><g id=\"a-x\"/></svg>\n</div>\n</p>");
 }
 
 TEST_CASE("a drawing with steps is followed by the list of what they tell, in their order") {
@@ -46,7 +47,7 @@ TEST_CASE("a drawing with steps is followed by the list of what they tell, in th
         "display=\"none\">\n<desc>first &lt;</desc>\n</g>\n<g data-first=\"1\">\n</g>\n</svg>\n");
     const std::string page = inline_drawings(picture("a.svg"), folder.path);
     CHECK(page.ends_with(
-        "</svg>\n<ol class=\"steps\">\n<li>first &lt;</li>\n<li>then</li>\n</ol>\n"));
+        "</svg>\n</div>\n<ol class=\"steps\">\n<li>first &lt;</li>\n<li>then</li>\n</ol>\n"));
 }
 
 TEST_CASE("a missing drawing, and two drawings with an id in common, are errors") {
@@ -71,6 +72,66 @@ TEST_CASE("quoted code loses the indentation that its lines share, and only that
                            "</span>    x();</div>\n" + close) ==
           open + line + comment + "// why" + end + line + "x();</div>\n" + close);
     CHECK(dedent_fragments("<p>  none</p>") == "<p>  none</p>");
+}
+
+TEST_CASE("links in code that rest on a word's spelling alone go") {
+    const auto link = [](const char* kind, const char* there, const char* word) {
+        return "<a class=\"code hl_" + std::string(kind) + "\" href=\"" + there + "\">" + word +
+               "</a>";
+    };
+    const auto kept = [](const std::string& code) { return without_guesses(code) == code; };
+    CHECK(kept(link("struct", "structspace_1_1Ray.html", "Ray") + " ray;"));
+    CHECK(kept(link("function", "namespacespace.html#a1", "slope") + "(x)"));
+    CHECK(kept(link("function", "namespacespace.html#a1", "decode") + "&lt;float&gt;"));
+    CHECK(kept(link("variable", "namespacespace.html#a1", "float_roundoff") + ";"));
+    CHECK(kept("Splitter::" + link("enumvalue", "x.html", "first")));
+    CHECK(kept(link("enumvalue", "x.html", "Splitter::first")));
+    CHECK(without_guesses("double " + link("function", "n.html#a1", "slope") + " = " +
+                          link("enumvalue", "x.html", "near") + ".t + node." +
+                          link("variable", "structspace_1_1C.html#a1", "first") + ";") ==
+          "double slope = near.t + node.first;");
+    CHECK(kept("<a class=\"el\" href=\"n.html\">slope</a> and <a class=\"code hl_variable\""));
+}
+
+TEST_CASE(
+    "no line ends inside an option or a folder's name, nor between a formula and its full stop") {
+    const auto word = [](const std::string& text) {
+        return "<span class=\"word\">" + text + "</span>";
+    };
+    CHECK(kept_together("<code>--query any x</code>") ==
+          "<code>" + word("--query ") + "any x</code>");
+    CHECK(kept_together("<code>a/b-c.hpp</code>") ==
+          "<code>" + word("a/") + word("b-c.hpp") + "</code>");
+    const std::string formula = "\\(a - b\\)", long_one = "\\(" + std::string(80, 'x') + "\\).";
+    CHECK(kept_together("p " + formula + ", q (" + formula + ") and " + formula + " r") ==
+          "p " + word(formula + ",") + " q " + word("(" + formula + ")") + " and " + formula +
+              " r");
+    for (const std::string& same : {long_one, "<code><b>a-b</b></code>"s, "a-b \\[x\\]."s, "\\(x"s})
+        CHECK(kept_together(same) == same);
+}
+
+TEST_CASE("a picture's caption is its alternative text, and the menu stands without scripts, too") {
+    const std::string image = "<div class=\"image\">\n<img src=\"fig_1.png\" alt=\"",
+                      rest = "\"/>\n<div class=\"caption\">\nFigure 1: A room</div></div>";
+    CHECK(with_alternatives(image + rest) == image + "Figure 1: A room" + rest);
+    CHECK(
+        menu_without_scripts("var NAVTREE =\n[\n  [ \"B\", \"index.html\", [\n"
+                             "    [ \"1. A &amp; B\", \"a.html\", null ],\n"
+                             "    [ \"Code\", null, [\n      [ \"Types\", \"t.html\", null ]\n") ==
+        "<noscript><nav class=\"plain-menu\"><a href=\"index.html\">The book</a> <a "
+        "href=\"a.html\">1. A &amp; B</a> <a href=\"files.html\">Code</a></nav></noscript>\n");
+}
+
+TEST_CASE("a formula is found by what one would say or type for it") {
+    const auto text = [](const std::string& body) {
+        return search_entries("<div class=\"contents\">" + body + "</div><!-- contents -->",
+                              "p.html")
+            .front()
+            .text;
+    };
+    CHECK(text("<p>Let \\(x \\cdot (y \\times z) \\le \\frac{1}{2} t_\\mathrm{max}\\).</p>") ==
+          "Let x · (y × z) ≤ 1 / 2 t_max.");
+    CHECK(text("<p>\\[\\left| \\varepsilon \\right| &lt; \\infty\\]</p>") == "| epsilon | < ∞");
 }
 
 TEST_CASE("a page is found by its sections, with the text that a reader sees") {

@@ -4,8 +4,8 @@
 ///
 /// Algorithm 1 of Heinonen16 forms a shadow ray for each light and never asks what it hits, so that
 /// nothing throws a shadow. Finish the function: does the light reach the point `origin`, or does a
-/// triangle stand between? The point is a shadow origin (see shadow_origin in shading.hpp): a ray
-/// that starts there may use tmin = 0.
+/// triangle stand between? The point is a shadow origin (see `shadow_origin` in shading.hpp): a ray
+/// that starts there may use `tmin = 0`.
 #pragma once
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"

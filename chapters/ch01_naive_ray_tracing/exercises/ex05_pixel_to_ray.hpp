@@ -2,10 +2,10 @@
 /// Exercise 1.5: From the pixel to the ray
 /// Difficulty 2 of 3, about 25 minutes.
 ///
-/// Return the ray from the eye through the *centre* of pixel (x, y); pixel (0, 0) is the one at the
-/// top left. Let its direction end on the image plane, at distance 1 in front of the eye.
-/// camera_ray in common/camera.hpp does the same: do it without. CameraFrame gives you the camera's
-/// axes and the tangent of half the vertical field of view.
+/// Return the ray from the eye through the *centre* of pixel (*x*, *y*); pixel (0, 0) is the one at
+/// the top left. Let its direction end on the image plane, at distance 1 in front of the eye.
+/// `camera_ray` in common/camera.hpp does the same: do it without. `CameraFrame` gives you the
+/// camera's axes and the tangent of half the vertical field of view.
 #pragma once
 
 #include "common/camera.hpp"

@@ -2,11 +2,11 @@
 /// Exercise 2.1: One square root fewer
 /// Difficulty 1 of 3, about 15 minutes.
 ///
-/// Lichter23's first test computes u and v as lengths of two cross products over the length of the
-/// normal, with three square roots: one in each glm::length. The vectors are parallel, and u and v
-/// are ratios of parallel vectors. Compute the same weights with at most two roots; fewer are
-/// welcome. Real is float, or a number of the check's that counts its square roots and knows +, -,
-/// *, / and sqrt(x), without std::.
+/// Lichter23's first test computes *u* and *v* as lengths of two cross products over the length of
+/// the normal, with three square roots: one in each `glm::length`. The vectors are parallel, and
+/// *u* and *v* are ratios of parallel vectors. Compute the same weights with at most two roots;
+/// fewer are welcome. `Real` is float, or a number of the check's that counts its square roots and
+/// knows `+ - * /` and `sqrt(x)`, without `std::`.
 #pragma once
 
 #include "common/geometry.hpp"

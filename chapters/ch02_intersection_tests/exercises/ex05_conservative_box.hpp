@@ -2,11 +2,11 @@
 /// Exercise 2.5: A conservative box margin
 /// Difficulty 3 of 3, about 30 minutes.
 ///
-/// A ray that touches a corner of a box enters and leaves it at the same t; three roundings can put
-/// `near` behind `far`, and a tree that asks this test loses the triangle inside. Widen the
+/// A ray that touches a corner of a box enters and leaves it at the same *t*; three roundings can
+/// put `near` behind `far`, and a tree that asks this test loses the triangle inside. Widen the
 /// interval by a bound on the roundings, so that the test never says no where exact arithmetic says
 /// yes, and not by more than it takes: rays that pass at a thousandth of the box's size are still
-/// missed. t >= 0 here, and no numbers near the ends of the float range.
+/// missed. *t* >= 0 here, and no numbers near the ends of the float range.
 #pragma once
 
 #include "common/geometry.hpp"

@@ -2,12 +2,13 @@
 /// Exercise 3.2: Split a polygon
 /// Difficulty 2 of 3, about 30 minutes.
 ///
-/// Cut a convex polygon that lies across a plane into its piece in front and its piece behind.
-/// Both keep the polygon's order of corners; which corner they begin with is up to you. A corner
-/// on the plane goes to both pieces, once each, and so does the point where an edge passes through
-/// the plane. Checked on every polygon made of some of ten corners, with numbers for which every
-/// cut is exact: the pieces must have the right corners and no more, lie on their sides and have
-/// the polygon's area; and on cuts at thirds and sevenths, which may be off by a float's rounding.
+/// Cut a convex polygon that lies across a plane into its piece in front and its piece behind;
+/// `plane.distance(corner)` is positive in front, 0 on the plane and negative behind. Both keep the
+/// polygon's order of corners; which corner they begin with is up to you. A corner on the plane
+/// goes to both pieces, once each, and so does the point where an edge passes through the plane.
+/// Checked on every polygon made of some of ten corners, with numbers for which every cut is exact:
+/// the pieces must have the right corners and no more, lie on their sides and have the polygon's
+/// area; and on cuts at thirds and sevenths, which may be off by a float's rounding.
 #pragma once
 
 #include "chapters/ch03_bsp_trees/fragment.hpp"

@@ -3,12 +3,12 @@
 /// Difficulty 2 of 3, about 25 minutes.
 ///
 /// A good splitter parts its set in the middle and cuts few. Of the candidates, which are indices
-/// into the set, return the one with the lowest cost: the difference between the number of
-/// segments in front and behind, plus split_weight for each segment that the candidate's line
-/// cuts. What lies on the line, such as the candidate itself, costs nothing; what only touches it
-/// is not cut. Of equal costs the earlier candidate counts. There is at least one candidate.
-/// Checked on Heinonen's segments A to G, and on random sets with small whole coordinates, where
-/// many touch and coincide.
+/// into the set, return the one with the lowest cost: the difference between the number of segments
+/// in front and behind, plus `split_weight` for each segment that the candidate's line cuts. What
+/// lies on the line, such as the candidate itself, costs nothing; what only touches it is not cut.
+/// Of equal costs the earlier candidate counts. There is at least one candidate. Checked on
+/// Heinonen's segments *A* to *G*, and on random sets with small whole coordinates, where many
+/// touch and coincide.
 #pragma once
 
 #include "chapters/ch03_bsp_trees/fragment.hpp"

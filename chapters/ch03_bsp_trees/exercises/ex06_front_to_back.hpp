@@ -3,10 +3,11 @@
 /// Difficulty 2 of 3, about 35 minutes.
 ///
 /// Return the numbers of the cells that a ray passes through, in the order in which it does. The
-/// ray is the points origin + t direction with t >= 0. Carry with each node the interval of t in
-/// which the ray is in its part of the plane: where it crosses the node's line within that interval
-/// it passes through both children, else through one. A cell that the ray only touches, or whose
-/// border it runs along, may be named or not; a ray in a node's line must not be lost altogether.
+/// ray is the points *origin* + *t* *direction* with *t* >= 0. Carry with each node the interval of
+/// *t* in which the ray is in its part of the plane: where it crosses the node's line within that
+/// interval it passes through both children, else through one. A cell that the ray only touches, or
+/// whose border it runs along, may be named or not; a ray in a node's line must not be lost
+/// altogether.
 #pragma once
 
 #include "common/geometry.hpp"

@@ -6,7 +6,7 @@
 /// lie: Location::inside, outside, or boundary, which is on an edge? Where a node has no child in
 /// front, its empty cell touches the fronts of the node's edges; where it has none behind, their
 /// backs. A point on a node's line is no boundary point yet: the edges may be elsewhere on that
-/// line. Do it without BspTree::locate. Points are whole or half, and tree.side_of(p, node) is
+/// line. Do it without BspTree::locate. Points are whole or half, and `tree.side_of(p, node)` is
 /// exact: 1, 0 or -1, as in exercise 3.4. Without nodes all is outside.
 #pragma once
 

@@ -3,10 +3,10 @@
 /// Difficulty 2 of 3, about 25 minutes.
 ///
 /// A BSP tree costs more than its polygons: cuts make more of them, and a bad order makes it deep.
-/// Compute what Growth asks for from a tree that was made by cutting. Every polygon of the tree has
-/// at least one fragment, and fragment.polygon tells whose it is; several fragments may lie in one
-/// node. A node stands before its children in tree.nodes, so that one pass will do, for a tree of
-/// 400,000 levels as well. Do it without BspTree::depth. For no nodes all numbers are 0.
+/// Compute what `Growth` asks for from a tree that was made by cutting. Every polygon of the tree
+/// has at least one fragment, and `fragment.polygon` tells whose it is; several fragments may lie
+/// in one node. A node stands before its children in `tree.nodes`, so that one pass will do, for a
+/// tree of 400,000 levels as well. Do it without BspTree::depth. For no nodes all numbers are 0.
 #pragma once
 
 #include "chapters/ch03_bsp_trees/bsp_tree.hpp"
