@@ -345,7 +345,8 @@ class Script {
                 const Box& best = *std::min_element(
                     places.begin(), places.end(),
                     [&](const Box& p, const Box& q) { return in_the_way(p) < in_the_way(q); });
-                taken.push_back(best);
+                const double blank = 0.5 * character_width;  // "3" beside "4" is not 34
+                taken.push_back({best.left - blank, best.top, best.right + blank, best.bottom});
                 label(text, best.left, best.bottom - half + text_size / 3, "left", Ink::ink);
             }
     }

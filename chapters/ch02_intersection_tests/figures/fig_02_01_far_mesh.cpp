@@ -95,7 +95,7 @@ Svg fig_02_01(const Options& options) {
                         svg.circle({left + static_cast<float>(x) + 0.5f,
                                     top + static_cast<float>(y) + 0.5f},
                                    4, {.stroke = Ink::vermillion});
-        svg.text({middle, top + side + 18}, picture.test, {.size = 16});
+        svg.text({middle, top + side + 18}, picture.test, {.size = 13.5});
         svg.text({middle, top + side + 40},
                  picture.wrong == 0 ? "none wrong" : with_commas(picture.wrong) + " wrong",
                  {.ink = Ink::quiet, .size = 16});

@@ -27,26 +27,18 @@ double over_scenes(const std::vector<SceneTimes>& scenes, std::size_t test) {
 Chart triangle_chart(const Measurements& measured) {
     Series leaks{.name = "leaks", .x = {}, .y = {}};
     const Leaks& mesh = measured.leaks.front();
-    int without_leaks = 0;
     const std::vector<Timed>& tests = measured.triangle_times.front().tests;
     for (std::size_t test = 0; test < tests.size(); ++test) {
-        const std::string& name = tests[test].test;
         leaks.x.push_back(over_scenes(measured.triangle_times, test));
-        // Two tests without leaks stand one above the other, so that their names do not meet.
-        leaks.y.push_back(mesh.leaks[test] > 0 ? 1e6 * static_cast<double>(mesh.leaks[test]) /
-                                                     static_cast<double>(mesh.rays)
-                          : without_leaks++ % 2 == 0 ? none
-                                                     : 3.0 * none);
-        // Lichter's two tests leak alike; only the improved one carries the name.
-        leaks.labels.push_back(name == "lichter-first"      ? "first"
-                               : name == "lichter-improved" ? "lichter"
-                                                            : name);
+        leaks.y.push_back(on_log_axis(1e6 * static_cast<double>(mesh.leaks[test]) /
+                                      static_cast<double>(mesh.rays)));
+        leaks.labels.push_back(tests[test].test);
     }
     return {.title =
                 "Nanoseconds per ray-triangle test against leaks through the edges and vertices of "
                 "a closed mesh",
             .x_label = "ns per test (median of six inputs)",
-            .y_label = "leaks per million rays; below 1: none",
+            .y_label = "leaks per million rays; 0.1 stands for none",
             .log_x = true,
             .log_y = true,
             .kind = ChartKind::points,

@@ -35,8 +35,7 @@ Svg fig_03_02(const Options&) {
         for (const Turn::Cut& cut : turn.cuts)
             svg.circle(view(cut_point(story, cut)), 5, {.fill = Ink::vermillion});
     for (std::size_t i = 0; i < story.cells.size(); ++i)
-        svg.text(moved(view(story.cells[i].place), 0, 6), fmt::format("{}", i + 1),
-                 {.ink = Ink::quiet, .size = 16});
+        svg.text(moved(view(story.cells[i].place), 0, 6), fmt::format("{}", i + 1), {.size = 16});
 
     double y = 38;
     for (const Turn& turn : story.turns) {

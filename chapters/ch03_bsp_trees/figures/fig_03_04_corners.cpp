@@ -118,7 +118,7 @@ void draw_fragment(Svg& svg) {
     svg.text({88, 24}, "*P*_1", {.ink = Ink::blue, .size = 20});
     svg.text({372, 90}, "*P*_2", {.ink = Ink::blue, .size = 20});
     constexpr std::array<std::pair<double, const char*>, 3> names{
-        {{-14, "*a*"}, {16, "*b*"}, {14, "*c*"}}};
+        {{-14, "*a*"}, {22, "*b*"}, {14, "*c*"}}};
     for (std::size_t i = 0; i < 3; ++i)
         svg.text(moved(paper(whole[i]), names[i].first, i == 2 ? -4 : 12), names[i].second,
                  {.size = 20});
@@ -182,7 +182,7 @@ void draw_floats(Svg& svg, const Glass& glass) {
                        (std::floor(glass.middle.y / Glass::unit) + row) * Glass::unit, 0.0});
             if (dot.x > glass.left + 2 && dot.x < glass.left + Glass::side - 2 &&
                 dot.y > Glass::top + 2 && dot.y < Glass::top + Glass::side - 2)
-                svg.circle(Point2(dot), 1.8, {.stroke = {}, .fill = Ink::quiet});
+                svg.circle(Point2(dot), 1.8, {.stroke = {}, .fill = Ink::ink});
         }
 }
 

@@ -48,6 +48,14 @@ void draw_ring(Svg& svg, const Story& story, std::span<const std::size_t> order,
     svg.text(moved(centre, -12, 6), "eye", {.anchor = Anchor::end, .size = 18, .halo = true});
 }
 
+/// Beside the circle that has the piece's number.
+Point2 name_place(const PlaneView& view, const Piece& piece, const Point2& circle) {
+    const Point2 place = heinonen_name_place(view, piece), middle = moved(place, 0, -7);
+    constexpr float apart = 31;
+    const float distance = glm::distance(middle, circle);
+    return distance < apart ? place + (apart / distance - 1.0f) * (middle - circle) : place;
+}
+
 constexpr double left = 470, width = 160, row = 44;
 
 /// The eye's picture when these pieces have been painted.
@@ -87,8 +95,8 @@ Svg fig_03_07(const Options&) {
         const Piece& piece = story.pieces[order[k]];
         draw_segment(svg, view, piece.from, piece.to,
                      {.stroke = {}, .fill = colors[piece.polygon]});
-        svg.text(heinonen_name_place(view, piece), written(piece), {.size = 20, .halo = true});
         const Point2 where = view(0.5 * (piece.from + piece.to));
+        svg.text(name_place(view, piece, where), written(piece), {.size = 20, .halo = true});
         svg.circle(where, 12, {.stroke = Ink::ink, .fill = Ink::paper}, "order-" + piece.name);
         svg.text(moved(where, 0, 6), fmt::format("{}", k + 1), {.size = 17, .bold = true});
         const double top = 22 + row * static_cast<double>(k);

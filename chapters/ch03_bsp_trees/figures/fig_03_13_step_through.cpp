@@ -245,7 +245,7 @@ void draw_cells(Svg& svg, const Stage& stage) {
         svg.rect(moved(to, -14, -14), at(28, 28), style);
         svg.text(moved(to, 0, 6), fmt::format("{}", i + 1), {.size = 18});
         svg.text(moved(stage.view(stage.story.cells[i].place), 0, 6), fmt::format("{}", i + 1),
-                 {.ink = Ink::quiet, .size = 18});
+                 {.size = 18});
         svg.end_group();
     }
 }
