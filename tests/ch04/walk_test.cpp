@@ -183,8 +183,10 @@ TEST_CASE("distances to planes: the largest error stays below its bound, and com
     double worst = 0.0;
     for (int i = 0; i < samples; ++i) {
         const auto number = [&] {
-            return std::ldexp(random.uniform(1.0f, 2.0f), int(random.below(8)) - 4) *
-                   (random.below(2) ? 1.0f : -1.0f);
+            const float mantissa = random.uniform(1.0f, 2.0f);
+            const int exponent = int(random.below(8)) - 4;
+            const float sign = random.below(2) != 0 ? 1.0f : -1.0f;
+            return sign * std::ldexp(mantissa, exponent);
         };
         Ray ray{Point3(number()), Vector3(number())};
         const float position = number();
