@@ -5,10 +5,6 @@
 
 namespace space::ch04 {
 
-Chart fig_04_21(const Options& options) {
-    return cures_chart(measured_once<measure_cures>(options));
-}
-
 Chart fig_04_22(const Options& options) {
     return rules_chart(measured_once<measure_trees>(options));
 }

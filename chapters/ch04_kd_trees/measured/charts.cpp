@@ -26,25 +26,9 @@ constexpr double none = 0.5;
 
 }  // namespace
 
-Chart cures_chart(const std::vector<CurePoint>& cures) {
-    Chart chart{.title = "Ray-triangle tests per ray by Lichter23's tree, cure by cure",
-                .x_label = "each with the cures before it",
-                .y_label = "ray-triangle tests per ray",
-                .log_y = true,
-                .kind = ChartKind::bars,
-                .series = {}};
-    for (const CurePoint& point : cures) {
-        if (chart.series.empty() || chart.series.back().name != point.scene)
-            chart.series.push_back({.name = point.scene, .x = {}, .y = {}});
-        if (chart.series.size() == 1) chart.categories.push_back(point.cure);
-        chart.series.back().y.push_back(point.tests_per_ray());
-    }
-    return chart;
-}
-
 Chart rules_chart(const std::vector<TreePoint>& trees) {
     Chart chart{.title = "Build time against rays per second, by rule and scene",
-                .x_label = "build time in µs per triangle; labels: the scene",
+                .x_label = "build time in µs per triangle",
                 .y_label = "million rays per second",
                 .log_x = true,
                 .log_y = true,
@@ -56,7 +40,6 @@ Chart rules_chart(const std::vector<TreePoint>& trees) {
             if (p.rule != rule) continue;
             series.x.push_back(1e3 * p.build_ms / double(p.n));
             series.y.push_back(1e-6 * p.rays_per_second());
-            series.labels.push_back(p.scene);
         }
         chart.series.push_back(series);
     }
@@ -65,7 +48,7 @@ Chart rules_chart(const std::vector<TreePoint>& trees) {
 
 Chart care_chart(const std::vector<CarePoint>& care) {
     Chart chart{.title = "Time per ray against lost hits, by grade of care and scene",
-                .x_label = "time per ray, with margins = 1; labels: the scene",
+                .x_label = "time per ray, with care = 1",
                 .y_label = "lost hits per million aimed rays; below 1: none",
                 .log_y = true,
                 .kind = ChartKind::points,
@@ -76,7 +59,6 @@ Chart care_chart(const std::vector<CarePoint>& care) {
             const CarePoint &point = care[i + grade], &careful = care[i + care_names.size() - 1];
             series.x.push_back(point.trace_ms / careful.trace_ms);
             series.y.push_back(point.lost > 0 ? point.lost_per_million() : none);
-            series.labels.push_back(point.scene);
         }
         chart.series.push_back(series);
     }

@@ -1,4 +1,5 @@
 #include "chapters/ch04_kd_trees/measured/outcome.hpp"
+#include "common/program/report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -81,8 +82,8 @@ ClaimAnswer answer_box(const std::vector<CurePoint>& cures) {
         large = large || p.box_area > 1.0;
         small = small || p.box_area < 1.0;
         vanished = vanished || (p.dropped > 0 && p.lost > 0);
-        texts.push_back(fmt::format("{}: {:.2f} times the area, {} triangles and {} hits gone",
-                                    scene, p.box_area, p.dropped, p.lost));
+        texts.push_back(fmt::format("{}: {:.2f} times the area, {} and {} gone", scene, p.box_area,
+                                    counted(p.dropped, "triangle"), counted(p.lost, "hit")));
     }
     return {"L10", verdict_of(std::size_t{large} + small + vanished, 3),
             fmt::format("the published box beside the scene's: {}", fmt::join(texts, "; ")),

@@ -93,9 +93,9 @@ inline double tests_per_log_n(const TreePoint& p) {
 
 // --- what goes wrong without care ---
 
-/// What is in float and without a margin.
-inline constexpr std::array<std::string_view, 4> care_names{
-    "float planes, float pieces", "float planes", "float pieces", "double, with margins"};
+/// By what is in float and without a margin: planes' distances, and split triangles' corners.
+inline constexpr std::array<std::string_view, 4> care_names{"float both", "float planes",
+                                                            "float pieces", "careful"};
 
 /// One tree by one grade of care, under rays that are aimed where it matters.
 struct CarePoint {

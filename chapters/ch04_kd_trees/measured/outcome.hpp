@@ -9,7 +9,6 @@
 
 namespace space::ch04 {
 
-Chart cures_chart(const std::vector<CurePoint>& cures);  ///< tests per ray after each cure
 Chart rules_chart(const std::vector<TreePoint>& trees);  ///< build time against rays per second
 Chart care_chart(const std::vector<CarePoint>& care);    ///< time against lost hits
 Chart rays_chart(const std::vector<Growth>& growth);     ///< nodes and tests per ray
