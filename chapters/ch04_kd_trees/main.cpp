@@ -87,7 +87,7 @@ int run(int argc, char** argv) {
     print_growth(measured.growth = measured_once<measure_growth>(options), times);
     if (all) print_care(measured.care = measured_once<measure_care>(options), times);
     print_overlaps(measured.overlaps = measure_overlaps(options));
-    print_points(measured.points = measured_once<measure_point_searches>(options), times);
+    if (all) print_points(measured.points = measured_once<measure_point_searches>(options), times);
     if (!options.counts) measured.planes = measure_planes(options);
     if (times) print_planes(measured.planes);
     const std::uint64_t wrong = wrong_answers(measured);

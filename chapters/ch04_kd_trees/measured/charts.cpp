@@ -16,7 +16,8 @@ Series line(const std::vector<Growth>& growth, std::string_view scene, std::stri
             series.x.push_back(double(point.n));
             series.y.push_back(value(point));
         }
-        series.note = fmt::format("slope {:.2f}", slope(g, value));
+        const double fitted = slope(g, value);
+        series.note = fmt::format("slope {:.2f}", std::abs(fitted) < 0.005 ? 0.0 : fitted);
     }
     return series;
 }

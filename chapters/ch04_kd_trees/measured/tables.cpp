@@ -292,8 +292,11 @@ void quote_cures(const std::vector<CurePoint>& cures, bool times, Numbers& numbe
 }
 
 void quote_trees(const std::vector<TreePoint>& trees, bool all, Numbers& numbers) {
-    if (!all) return;  // of some of the scenes only
-    numbers.count_table("rules", trees_table(trees, false));
+    std::vector<TreePoint> first = trees;
+    std::erase_if(first, [&](const TreePoint& p) { return p.scene != trees.front().scene; });
+    numbers.count_table("rules", trees_table(first, false));
+    if (!all) return;  // of the first scene only
+    numbers.count_table("rules_all", trees_table(trees, false));
     numbers.count_table("mailboxes", mailbox_table(trees));
     numbers.count_table("candidates", candidates_table(trees));
     quote_range(numbers, "mail_boxes", trees, sah_boxes, mail_saved);

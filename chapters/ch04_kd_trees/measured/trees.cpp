@@ -134,10 +134,10 @@ std::vector<TreePoint> measure_rules(const TreeTask& task, std::size_t count,
 
 std::vector<std::string> tree_scenes(const Options& options) {
     if (options.small) return {"soup", "lattice", "stadium"};
-    std::vector<std::string> names{options.scene, "soup:10000", "lattice", "stadium"};
-    // What is counted again in each test need not be large.
-    if (options.counts ? options.quick : options.amount() != Amount::full) return names;
-    names.insert(names.end(), {"building", "bunny", "dragon_48k"});
+    std::vector<std::string> names{options.scene};
+    if (options.counts && options.quick) return names;
+    names.insert(names.end(), {"soup:10000", "lattice", "stadium"});
+    if (!options.quick) names.insert(names.end(), {"building", "bunny", "dragon_48k"});
     return names;
 }
 
