@@ -343,16 +343,23 @@ function(add_exercise name)
     endforeach()
 endfunction()
 
-# add_book_test(name SOURCES a.cpp ... [LIBRARIES ...] [LABELS ...])
-# A Catch2 program and a test that runs it; a program without test cases fails. Label no_sanitizer: neither compiled nor
-# run under sanitizers, for tests of numbers whose code other tests take through memory and threads.
+# add_book_test(name SOURCES a.cpp ... [LIBRARIES ...] [DEFINES NAME="text" ...] [RUNS NAME=target ...] [LABELS ...])
+# A Catch2 program and a test that runs it; a program without test cases fails. After RUNS stand programs that it starts,
+# each with the name by which it finds the file. Label no_sanitizer: neither compiled nor run under sanitizers, for tests
+# of numbers whose code other tests take through memory and threads.
 function(add_book_test name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;DEFINES;RUNS;LABELS" ${ARGN})
     if(BOOK_SANITIZE AND "no_sanitizer" IN_LIST ARG_LABELS)
         return()
     endif()
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE book_common book_flags ${ARG_LIBRARIES})
+    target_compile_definitions(${name} PRIVATE ${ARG_DEFINES})
+    foreach(program IN LISTS ARG_RUNS)
+        string(REGEX MATCH "^(.*)=(.*)$" program ${program})
+        target_compile_definitions(${name} PRIVATE ${CMAKE_MATCH_1}="$<TARGET_FILE:${CMAKE_MATCH_2}>")
+        add_dependencies(${name} ${CMAKE_MATCH_2})
+    endforeach()
     book_uses_catch(${name})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     add_test(NAME ${name} COMMAND ${name} ${BOOK_CATCH_ARGUMENTS})
