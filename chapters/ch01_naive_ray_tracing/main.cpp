@@ -47,8 +47,7 @@ ChapterOptions read_options(int argc, char** argv) {
 /// The same scene three times: by Algorithm 1 as it should be, as it is printed, and by the
 /// rasteriser.
 void draw_pictures(const ChapterOptions& options) {
-    const Scene scene = make_scene(options.scene, options.seed, options.small);
-    print_remarks(this_chapter.name, scene.mesh.remarks);
+    const Scene scene = asked_scene(options);
     const RenderSettings settings{.width = options.width,
                                   .height = options.height,
                                   .samples = options.samples,

@@ -57,8 +57,7 @@ ChapterOptions read_options(int argc, char** argv) {
 
 /// The scene by rays through its tree and by the painter.
 Pictures draw_pictures(const ChapterOptions& options) {
-    const Scene scene = make_scene(options.scene, options.seed, options.small);
-    print_remarks(this_chapter.name, scene.mesh.remarks);
+    const Scene scene = asked_scene(options);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const RenderSettings settings{
         .width = options.width, .height = options.height, .threads = options.threads};

@@ -41,7 +41,7 @@ Options read_options(int argc, char** argv) {
 
 /// One scene, without a tree and with ever better ones: the same picture.
 std::vector<PicturePoint> draw_pictures(const Options& options) {
-    const Scene scene = make_scene(options.scene, options.seed, options.small);
+    const Scene scene = asked_scene(options);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const RenderSettings settings{
         .width = options.width, .height = options.height, .threads = options.threads};

@@ -15,6 +15,12 @@ std::filesystem::path results_file(const Options& options) {
 
 }  // namespace
 
+Scene asked_scene(const Options& options) {
+    Scene scene = make_scene(options.scene, options.seed, options.small);
+    print_remarks(this_chapter.name, scene.mesh.remarks);
+    return scene;
+}
+
 void check_results_writable(const Options& options) {
     check_writable(results_file(options));
 }

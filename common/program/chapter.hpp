@@ -4,6 +4,7 @@
 
 #include "common/program/figure.hpp"
 #include "common/program/results.hpp"
+#include "common/scene.hpp"
 
 #include <cstdint>
 #include <span>
@@ -19,6 +20,9 @@ struct Chapter {
     std::span<const Figure> figures;
 };
 extern const Chapter this_chapter;
+
+/// The scene that --scene asks for; what the reader of its mesh remarks goes to stderr.
+Scene asked_scene(const Options& options);
 
 /// Asked before long work: can the results be written into options.out?
 /// @throws Error (bad_output)
