@@ -51,10 +51,10 @@ struct BasicMollerTrumbore {
 };
 
 /// Chapter 1's test. It decides nearly always as exact arithmetic does; now and then it says "hit"
-/// outside of the triangle (some 40 of a million rays along a shared edge), where a structure that
-/// knows the ray's place does not look, so over this test no structure can be proved to answer as
-/// the naive loop does; over chapter 2's FilteredExact it can. In float the test misses rays near
-/// the edges (figure 1.9; chapter 2 has more).
+/// outside of the triangle, near an edge, where a structure that knows the ray's place does not
+/// look, so over this test no structure can be proved to answer as the naive loop does; over
+/// chapter 2's FilteredExact it can. In float the test misses rays near the edges (figure 1.9;
+/// chapter 2 has more).
 using MollerTrumbore = BasicMollerTrumbore<double>;
 
 }  // namespace space

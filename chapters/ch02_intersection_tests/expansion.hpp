@@ -41,6 +41,7 @@ struct TwoParts {
     double high, low;
 };
 
+// [two_sum]
 /// a + b = high + low exactly, high the rounded sum (Knuth 1998, section 4.2.2, theorem B;
 /// Shewchuk's theorem 7).
 inline TwoParts two_sum(double a, double b) {
@@ -56,6 +57,7 @@ inline TwoParts two_product(double a, double b) {
     const double high = a * b;
     return {high, std::fma(a, b, -high)};
 }
+// [two_sum]
 
 /// b - a of two floats: one or two parts.
 inline Expansion<2> difference(float b, float a) {

@@ -1,6 +1,6 @@
 /// Chapter 2: intersection tests and square roots, each with its cost and its error.
 ///     ch02_intersection_tests --out pictures
-///     ch02_intersection_tests --figure fig_02_04 --out figures
+///     ch02_intersection_tests --figure fig_02_03 --out figures
 #include "chapters/ch02_intersection_tests/measured/measurements.hpp"
 #include "chapters/ch02_intersection_tests/measured/outcome.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     one_ray_at_an_edge();
     const Measurements& measured = measure_all(options);
     print_triangles(measured);
+    print_signs(measured);
     print_roots(measured);
     print_boxes_and_spheres(measured);
     print_bounces(measured);

@@ -4,6 +4,7 @@
 ///     ch03_bsp_trees --figure fig_03_02 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "chapters/ch03_bsp_trees/measured/known_errors.hpp"
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "chapters/ch03_bsp_trees/measured/outcome.hpp"
 #include "chapters/ch03_bsp_trees/painter.hpp"
@@ -117,6 +118,7 @@ int run(int argc, char** argv) {
     const bool times = !options.small && !options.counts;
 
     Measurements measured;
+    measured.worst_known_share = worst_known_share();
     measured.pictures = draw_pictures(options);
     print_methods(measured.methods = measure_methods(options.scene, options), times);
     const bool all = !options.counts || !options.quick;

@@ -6,19 +6,19 @@
 
 namespace space::ch02 {
 
-Chart fig_02_04(const Options& options) {
+Chart fig_02_03(const Options& options) {
     return triangle_chart(measure(options, {count_leaks, time_triangles}));
 }
 
-Chart fig_02_06(const Options& options) {
+Chart fig_02_07(const Options& options) {
     return box_chart(measure(options, {count_boxes, time_patterns}));
 }
 
-Chart fig_02_08(const Options& options) {
+Chart fig_02_09(const Options& options) {
     return sphere_chart(measure(options, {count_spheres, time_others}));
 }
 
-Chart fig_02_10(const Options& options) {
+Chart fig_02_11(const Options& options) {
     return root_chart(measure(options, {count_roots, time_others}));
 }
 

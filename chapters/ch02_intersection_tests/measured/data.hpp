@@ -117,6 +117,30 @@ struct Bounces {
     std::uint64_t leaks = 0;  ///< the ray hits nothing, or the back of a triangle: it is outside
     double offset = 0.0;      ///< mean distance of the origin from the hit point
 };
+/// One volume in three arithmetics, and how far off double may be.
+struct Volume {
+    double in_float = 0.0, in_double = 0.0, exact = 0.0, bound = 0.0;
+};
+/// A volume in one arithmetic, and which of the two triangles at its edge a test in that arithmetic
+/// hits.
+struct SignRow {
+    std::string_view arithmetic;
+    double volume = 0.0;
+    bool first = false, second = false;
+};
+/// The same ray in three arithmetics.
+struct SignExample {
+    std::array<SignRow, 3> rows{};
+    double bound = 0.0;  ///< of the volume's error in double
+};
+/// Small volumes of large whole numbers.
+struct LostSigns {
+    std::uint64_t volumes = 0;
+    std::uint64_t in_float = 0, in_double = 0;  ///< whose sign comes out as another
+    std::uint64_t certain = 0;                  ///< beyond the bound of double's error
+    std::uint64_t certain_wrong = 0;            ///< of these: none, or the bound is wrong
+    double worst_error = 0.0;                   ///< of double
+};
 // --- timed, on one thread ---
 
 /// A median time and what took it.
@@ -168,6 +192,9 @@ struct PlacedBounces {
 struct Measurements {
     std::vector<TriangleAccuracy> triangles;  ///< in the order of triangle_inputs()
     std::vector<Leaks> leaks;
+    SignExample sign_example;
+    LostSigns signs;
+    double worst_known_share = 0.0;   ///< of the filter's bound
     std::vector<RootAccuracy> roots;  ///< in the order of root_forms()
     BoxAccuracy lattice, boxes;
     RaysFromInside from_inside;
@@ -182,6 +209,7 @@ struct Measurements {
     std::vector<TimedRoot> root_times;
     std::vector<PatternTimes> pattern_times;
     std::vector<Timed> sphere_times, plane_times;
+    std::vector<Timed> stage_times;  ///< "filter first", "expansions only"
 };
 
 /// A test's time as a multiple of MollerTrumboreFloat's on the same scene.

@@ -1,5 +1,6 @@
 #include "chapters/ch02_intersection_tests/measured/measurements.hpp"
 
+#include "chapters/ch02_intersection_tests/measured/signs.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 #include "common/program/progress.hpp"
 #include "common/scene.hpp"
@@ -14,6 +15,7 @@ Sizes sizes(Amount amount) {
         case Amount::small:
             return {.pairs = 4096,
                     .leak_rays = 4096,
+                    .volumes = 4096,
                     .root_stride = 1021,
                     .root_samples = 64,
                     .boxes = 20'000,
@@ -23,6 +25,7 @@ Sizes sizes(Amount amount) {
         case Amount::quick:
             return {.pairs = 100'000,
                     .leak_rays = 100'000,
+                    .volumes = 100'000,
                     .root_stride = 17,
                     .root_samples = 1000,
                     .boxes = 1'000'000,
@@ -32,6 +35,7 @@ Sizes sizes(Amount amount) {
         default:
             return {.pairs = 1'000'000,
                     .leak_rays = 1'000'000,
+                    .volumes = 1'000'000,
                     .root_stride = 1,
                     .root_samples = 20'000,
                     .boxes = 10'000'000,
@@ -48,6 +52,12 @@ void count_triangles(const Options& options, Measurements& measured) {
             triangle_accuracy(input, sizes(options.amount()).pairs, options.seed, options.threads));
         progress.step();
     }
+}
+
+void count_signs(const Options& options, Measurements& measured) {
+    measured.sign_example = sign_example();
+    measured.signs = lost_signs(sizes(options.amount()).volumes, options.seed);
+    measured.worst_known_share = worst_known_share();
 }
 
 void count_leaks(const Options& options, Measurements& measured) {
@@ -110,7 +120,9 @@ void time_triangles(const Options& options, Measurements& measured) {
                                            time_lichter_tests(leaves, rounds)});
         progress.step();
     };
-    time_leaves(random_leaves(64, options.seed));
+    const Leaves random = random_leaves(64, options.seed);
+    measured.stage_times = time_stages(random, rounds);
+    time_leaves(random);
     for (const std::string& name : scenes) {
         const Scene scene = make_scene(options.small ? name.substr(0, name.find(':')) : name,
                                        options.seed, options.small);
@@ -144,20 +156,21 @@ const Measurements& measure(const Options& options, std::initializer_list<Part> 
 }
 
 const Measurements& measure_all(const Options& options) {
-    const Measurements& measured = measure(options, {count_triangles, count_leaks, count_roots,
-                                                     count_boxes, count_spheres, count_bounces});
+    const Measurements& measured =
+        measure(options, {count_triangles, count_signs, count_leaks, count_roots, count_boxes,
+                          count_spheres, count_bounces});
     if (options.counts) return measured;
     return measure(options, {time_triangles, time_patterns, time_others});
 }
 
 std::uint64_t wrong_answers(const Measurements& measured) {
-    std::uint64_t missed = 0;
+    std::uint64_t wrong = measured.signs.certain_wrong;
     for_each_named(box_tests, [&](std::size_t i, const auto& named) {
         if (std::is_same_v<TestOf<decltype(named)>, SlabConservative>)
-            missed += measured.lattice.wrong[i].misses + measured.boxes.wrong[i].misses +
-                      measured.from_inside.rejected[i];
+            wrong += measured.lattice.wrong[i].misses + measured.boxes.wrong[i].misses +
+                     measured.from_inside.rejected[i];
     });
-    return missed;
+    return wrong;
 }
 
 }  // namespace space::ch02

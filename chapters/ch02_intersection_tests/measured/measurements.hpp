@@ -15,6 +15,7 @@ namespace space::ch02 {
 struct Sizes {
     std::uint64_t pairs;      ///< rays with a triangle each, per input class
     std::uint64_t leak_rays;  ///< per closed mesh
+    std::uint64_t volumes;    ///< of whole numbers
     std::uint32_t root_stride, root_samples;
     std::uint64_t boxes, spheres;  ///< rays with a box or a sphere each, spheres per distance
     std::uint64_t bounces;         ///< per way and place
@@ -26,6 +27,7 @@ Sizes sizes(Amount amount);
 /// on one.
 using Part = void (*)(const Options& options, Measurements& measured);
 void count_triangles(const Options& options, Measurements& measured);
+void count_signs(const Options& options, Measurements& measured);
 void count_leaks(const Options& options, Measurements& measured);
 void count_roots(const Options& options, Measurements& measured);
 void count_boxes(const Options& options, Measurements& measured);
@@ -41,7 +43,8 @@ void time_others(const Options& options, Measurements& measured);  ///< roots, s
 const Measurements& measure(const Options& options, std::initializer_list<Part> parts);
 const Measurements& measure_all(const Options& options);
 
-/// What is promised never to happen: hits that the conservative box test misses.
+/// What is promised never to happen: hits that the conservative box test misses, and certain signs
+/// that are wrong.
 std::uint64_t wrong_answers(const Measurements& measured);
 
 }  // namespace space::ch02

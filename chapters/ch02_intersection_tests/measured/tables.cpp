@@ -27,6 +27,15 @@ std::vector<std::string> test_names(const auto& measured, std::vector<std::strin
     return first;
 }
 
+Table sign_table(const SignExample& example) {
+    const auto said = [](bool hit) { return hit ? "hit" : "miss"; };
+    Table table({"in", "volume", "first triangle", "second triangle"});
+    for (const SignRow& row : example.rows)
+        table.row({row.arithmetic == "exact" ? "exact numbers" : std::string(row.arithmetic),
+                   fmt::format("{:.0f}", row.volume), said(row.first), said(row.second)});
+    return table;
+}
+
 }  // namespace
 
 void print_triangles(const Measurements& measured) {
@@ -67,6 +76,20 @@ void print_triangles(const Measurements& measured) {
                     share_of(input.stages.count[1], input.pairs),
                     share_of(input.stages.count[2], input.pairs)});
     stages.print();
+}
+
+void print_signs(const Measurements& measured) {
+    print_heading(
+        "A volume of six-digit whole numbers: on which side of an edge does the ray pass?");
+    sign_table(measured.sign_example).print();
+    const LostSigns& lost = measured.signs;
+    fmt::print(
+        "Of {} such volumes from -100 to 100, {} have a wrong sign in float and {} in double, "
+        "where the error is at most {:.0f}; {} are beyond its bound.\n",
+        with_commas(lost.volumes), with_commas(lost.in_float), with_commas(lost.in_double),
+        lost.worst_error, with_commas(lost.certain));
+    fmt::print("The filter's bound: the largest error known is {:.3f} of it.\n",
+               measured.worst_known_share);
 }
 
 void print_roots(const Measurements& measured) {
@@ -239,6 +262,29 @@ void quote_triangles(const Measurements& measured, Numbers& numbers) {
     numbers.count("random_beyond_filter", stages.count[1] + stages.count[2]);
 }
 
+void quote_signs(const Measurements& measured, Numbers& numbers) {
+    const SignExample& example = measured.sign_example;
+    numbers.count_table("sign_example", sign_table(example));
+    numbers.count("sign_bound", example.bound, with_commas(std::uint64_t(example.bound)));
+    const LostSigns& lost = measured.signs;
+    numbers.count("volumes", lost.volumes);
+    numbers.count("signs_float", ratio(lost.in_float, lost.volumes),
+                  percent(ratio(lost.in_float, lost.volumes)));
+    numbers.count("signs_double", ratio(lost.in_double, lost.volumes),
+                  percent(ratio(lost.in_double, lost.volumes)));
+    numbers.count("signs_certain", lost.certain);
+    numbers.count("signs_worst_error", lost.worst_error, fixed(lost.worst_error, 0));
+    numbers.count("worst_known_share", measured.worst_known_share,
+                  fixed(measured.worst_known_share, 2));
+    numbers.count("input_rays", measured.triangles.front().pairs);
+    const auto decided = [&](const char* input, std::size_t stage) {
+        const auto& of_input = by_name(measured.triangles, input, &TriangleAccuracy::input);
+        return ratio(of_input.stages.count[stage], of_input.pairs);
+    };
+    numbers.count("vertices_by_integers", decided("vertices", 1), percent(decided("vertices", 1)));
+    numbers.count("uneven_by_expansions", decided("uneven", 2), percent(decided("uneven", 2)));
+}
+
 void quote_roots(const Measurements& measured, Numbers& numbers) {
     for (const int rounds : {2, 3, 4}) {
         const RootAccuracy& root =
@@ -307,6 +353,9 @@ void quote_times(const Measurements& measured, Numbers& numbers) {
     if (exact.empty()) return;
     const double cost = median(exact) / median(moller_trumbore);
     numbers.time("exact_cost", cost, fixed(cost, 2));
+    const double expansions = ns_of(measured.stage_times, "expansions only") /
+                              ns_of(measured.stage_times, "filter first");
+    numbers.time("expansions_cost", expansions, fixed(expansions, 0));
 }
 
 }  // namespace
@@ -314,6 +363,7 @@ void quote_times(const Measurements& measured, Numbers& numbers) {
 Numbers quoted(const Measurements& measured) {
     Numbers numbers;
     quote_triangles(measured, numbers);
+    quote_signs(measured, numbers);
     quote_roots(measured, numbers);
     quote_boxes_and_spheres(measured, numbers);
     quote_bounces(measured, numbers);

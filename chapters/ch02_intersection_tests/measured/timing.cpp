@@ -157,6 +157,22 @@ std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds) {
     return race.times(static_cast<double>(leaves.tests()), rounds);
 }
 
+std::vector<Timed> time_stages(const Leaves& leaves, int rounds) {
+    struct ExpansionsOnly {
+        static std::optional<Hit> intersect(const Ray& ray, const Triangle& triangle) {
+            const auto volumes = expansion_volumes(ray, triangle);
+            if (!volumes.line_hits()) return std::nullopt;
+            return Hit{.t = static_cast<float>(volumes.t.value() / volumes.det.value())};
+        }
+    };
+    Race race;
+    race.add("filter first",
+             [&] { do_not_optimize(test_leaves<FilteredExact>(leaves, leaves.triangles)); });
+    race.add("expansions only",
+             [&] { do_not_optimize(test_leaves<ExpansionsOnly>(leaves, leaves.triangles)); });
+    return race.times(static_cast<double>(leaves.tests()), rounds);
+}
+
 std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds) {
     Race race;
     race.add("first", [&] { do_not_optimize(nearest_in_leaves<LichterFirst>(leaves)); });

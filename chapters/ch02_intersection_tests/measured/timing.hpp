@@ -38,6 +38,9 @@ Leaves random_leaves(std::size_t leaves, std::uint64_t seed);
 /// leaf (Watertight), or once per triangle outside the measurement (UnitTriangle).
 std::vector<Timed> time_triangle_tests(const Leaves& leaves, int rounds);
 
+/// "filter first": FilteredExact; "expansions only": its third stage, asked at once.
+std::vector<Timed> time_stages(const Leaves& leaves, int rounds);
+
 /// Lichter23's two tests and the two between, in a loop over all the triangles of a leaf that keeps
 /// the nearest hit's t as tmax, as its naive ray tracer does.
 std::vector<Timed> time_lichter_tests(const Leaves& leaves, int rounds);

@@ -130,6 +130,7 @@ struct Measurements {
     std::vector<Crossings> crossings;
     std::vector<GradePoint> grades;
     std::vector<PrintedTree> printed = {};
+    double worst_known_share = 0.0;  ///< of the bound for sides, by an error
 };
 /// Rays with another answer than the naive loop's, planes crossed by rays that stay on one side,
 /// and what the exact grade must not have: lost area, cracks, slipped rays.

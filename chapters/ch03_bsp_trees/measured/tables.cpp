@@ -266,6 +266,8 @@ void quote_grades(const std::vector<GradePoint>& grades, bool times, Numbers& nu
 Numbers quoted(const Measurements& measured, bool times) {
     Numbers numbers;
     quote_pictures(measured, numbers);
+    numbers.count("worst_known_share", measured.worst_known_share,
+                  fixed(measured.worst_known_share, 2));
     quote_growth(measured.growth, numbers);
     quote_grades(measured.grades, times, numbers);
     const Crossings sum = all_crossings(measured);

@@ -1,6 +1,7 @@
 // What drawings of trees and walks share.
-#include "common/program/tree_layout.hpp"
 #include "common/program/walk_drawing.hpp"
+
+#include "common/program/tree_layout.hpp"
 #include "tests/catch.hpp"
 
 using namespace space;

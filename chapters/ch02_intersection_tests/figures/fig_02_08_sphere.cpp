@@ -48,7 +48,7 @@ SpherePicture sphere_picture(int side, double distance) {
 
 }  // namespace
 
-Svg fig_02_07(const Options&) {
+Svg fig_02_08(const Options&) {
     Svg svg(
         "The ray's point nearest to a sphere's centre, and a sphere seen from 3,000 radii away "
         "by three formulas",

@@ -47,7 +47,7 @@ void draw_misses(Svg& svg) {
 
 }  // namespace
 
-Svg fig_02_05(const Options&) {
+Svg fig_02_06(const Options&) {
     Svg svg(
         "A ray in two slabs, the intervals of t in each, and their common part; below, what "
         "five tests miss",

@@ -87,7 +87,7 @@ void draw_error(Svg& svg, float (*root)(float), Ink ink, const char* label, doub
 
 }  // namespace
 
-Svg fig_02_09(const Options&) {
+Svg fig_02_10(const Options&) {
     Svg svg(
         "A float's bits are nearly its logarithm; the error of the square root after each "
         "round of Newton's method",

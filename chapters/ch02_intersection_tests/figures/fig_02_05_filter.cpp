@@ -109,7 +109,7 @@ void draw_who_decides(Svg& svg, std::uint64_t seed) {
 
 }  // namespace
 
-Svg fig_02_03(const Options& options) {
+Svg fig_02_05(const Options& options) {
     Svg svg(
         "The filter's number line, and the share of the rays that each of the three stages decides",
         640, head + row * static_cast<double>(triangle_inputs().size()) + 54);
