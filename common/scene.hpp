@@ -66,4 +66,8 @@ void frame_mesh(Scene& scene);
 /// The seven segments A .. G of Heinonen16, figures 2-5, in this order.
 std::vector<Segment> heinonen_segments();
 
+/// 22 segments in a frame of 26 x 13, at random places and none near another: what the drawings'
+/// rays go through.
+std::vector<Segment> scattered_segments();
+
 }  // namespace space

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace space {
 namespace {
@@ -177,7 +178,11 @@ void WalkPaper::draw_node(Svg& svg, std::size_t i, Ink ink) const {
     const DrawnTree::Node& node = tree_.nodes[i];
     const Style style{.stroke = ink, .fill = Ink::paper};
     if (node.children.empty()) {
-        const double half = std::max(14.0, 7.0 * static_cast<double>(node.name.size()));
+        const auto marks = std::ranges::count_if(node.name, [](char c) {
+            return std::string_view("*_{}").find(c) != std::string_view::npos;
+        });
+        const auto letters = static_cast<double>(node.name.size()) - static_cast<double>(marks);
+        const double half = std::max(14.0, 7.0 * letters);
         svg.rect(moved(place(i), -half, -14), at(2 * half, 28), style);
     } else {
         svg.circle(place(i), 20, style);

@@ -1,7 +1,7 @@
 #include "chapters/ch03_bsp_trees/figures.hpp"
 #include "chapters/ch03_bsp_trees/figures/plane_view.hpp"
 #include "chapters/ch03_bsp_trees/figures/recorded_walk.hpp"
-#include "common/random.hpp"
+#include "common/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -30,23 +30,6 @@ bool passes(const ConvexCell& cell, const Double2& from, const Double2& to) {
 }
 
 constexpr double width = 26.0, height = 13.0;
-
-/// Of random places, directions and lengths, none near another.
-std::vector<Segment> scattered_segments() {
-    std::vector<Segment> segments;
-    Pcg32 random(27);
-    while (segments.size() < 22) {
-        const Point2 middle = random_point(random, Aabb2{{1.5f, 1.0f}, {24.5f, 12.0f}});
-        const auto angle = static_cast<double>(random.uniform(0.0f, 3.14f));
-        const double half = static_cast<double>(random.uniform(0.5f, 1.4f));
-        const Vector2 way = at(half * std::cos(angle), half * std::sin(angle));
-        const bool near = std::ranges::any_of(segments, [&](const Segment& other) {
-            return glm::length(0.5f * (other.a + other.b) - middle) < 2.4f;
-        });
-        if (!near) segments.push_back({middle - way, middle + way});
-    }
-    return segments;
-}
 
 /// What the ray did on its way from `start` to its hit.
 struct Walk {

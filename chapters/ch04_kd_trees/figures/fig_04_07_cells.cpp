@@ -1,0 +1,87 @@
+// The cells of three rules over one scene.
+
+#include "chapters/ch04_kd_trees/figures.hpp"
+#include "chapters/ch04_kd_trees/figures/recorded_build.hpp"
+#include "chapters/ch04_kd_trees/sah_sweep.hpp"
+#include "common/random.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace space::ch04 {
+namespace {
+
+constexpr double size = 12.0, side = 208;
+
+/// The walls of a room, and two rings of short segments in it: much detail in little space.
+std::vector<Segment> room_with_rings() {
+    std::vector<Segment> segments{{{0.5f, 0.5f}, {11.5f, 0.5f}},
+                                  {{11.5f, 0.5f}, {11.5f, 11.5f}},
+                                  {{11.5f, 11.5f}, {0.5f, 11.5f}},
+                                  {{0.5f, 11.5f}, {0.5f, 0.5f}},
+                                  {{0.5f, 7.5f}, {4.0f, 11.5f}}};
+    const auto add_ring = [&](Double2 middle, double radius, int count) {
+        const auto corner = [&](int i) {
+            const double angle = 2.0 * std::numbers::pi * i / count;
+            return Point2(middle + radius * Double2(std::cos(angle), std::sin(angle)));
+        };
+        for (int i = 0; i < count; ++i) segments.push_back({corner(i), corner(i + 1)});
+    };
+    add_ring({8.6, 3.1}, 1.1, 24);
+    add_ring({8.6, 3.1}, 0.5, 12);
+    add_ring({4.4, 5.2}, 0.4, 10);
+    return segments;
+}
+
+/// What a random ray through the tree costs, by the perimeters of its cells.
+double expected_cost(const Story& story) {
+    const SahCosts costs;
+    double cost = 0.0;
+    for (const Turn& turn : story.turns)
+        cost += turn.cell.half_area() *
+                (turn.split ? costs.traversal : costs.intersection * double(turn.set.size()));
+    return cost / story.tree.box.half_area();
+}
+
+void draw_panel(Svg& svg, const Story& story, const char* name, double left) {
+    const PlaneView view{.corner = {left, 34}, .scale = side / size, .size = size};
+    svg.text(at(left + 0.5 * side, 22), name, {.size = 18, .bold = true});
+    for (const Turn& turn : story.turns) {
+        if (!turn.split && turn.set.empty())
+            svg.polygon(view(corners_of(turn.cell)),
+                        {.stroke = {}, .fill = Ink::sky, .opacity = 0.35});
+        if (!turn.split) continue;
+        const auto [from, to] = line_in_cell(turn.cell, *turn.split);
+        svg.line(view(from), view(to), {.stroke = Ink::blue});
+    }
+    for (const Segment& segment : story.segments)
+        svg.line(view(Double2(segment.a)), view(Double2(segment.b)), {.stroke = Ink::ink});
+    std::size_t leaves = 0;
+    for (const Turn& turn : story.turns) leaves += !turn.split;
+    svg.text(at(left + 0.5 * side, 62 + side), fmt::format("{} leaves", leaves), {.size = 17});
+    svg.text(at(left + 0.5 * side, 86 + side), fmt::format("cost {:.1f}", expected_cost(story)),
+             {.size = 17});
+}
+
+}  // namespace
+
+Svg fig_04_07(const Options&) {
+    using Rule = KdTreeConfig::Rule;
+    const std::vector<Segment> segments = room_with_rings();
+    Svg svg(
+        "The cells of three k-d trees over one scene: cut in the middle, at the median, by areas",
+        656, 132 + side - 34);
+    double left = 4;
+    for (const auto& [rule, name] : {std::pair{Rule::middle, "middle"},
+                                     {Rule::median, "median"},
+                                     {Rule::sah, "by areas (SAH)"}}) {
+        draw_panel(svg, watched_build(segments, {.rule = rule, .max_leaf_size = 2}), name, left);
+        left += side + 12;
+    }
+    return svg;
+}
+
+}  // namespace space::ch04
