@@ -149,7 +149,7 @@ sticking_out = """
 raw_formulas = r"""
     const texts = document.createTreeWalker(document.querySelector(".contents"), NodeFilter.SHOW_TEXT), raw = [];
     while (texts.nextNode())
-        if (/\\[(\[]|\\f\$/.test(texts.currentNode.data) && !texts.currentNode.parentElement.closest("code, pre, script, .fragment"))
+        if (/\\[(\[]|\\f\$|\*\*/.test(texts.currentNode.data) && !texts.currentNode.parentElement.closest("code, pre, script, .fragment"))
             raw.push(texts.currentNode.data.slice(0, 80));
     return raw;"""
 

@@ -28,6 +28,8 @@ ends 0 'book run' --help
 ends 0 'book run'
 for command in run try test exercise figures bench docs print scenes doctor; do ends 0 "^  ./book $command " $command --help; done
 ends 0 '^Splitting Space [0-9]' --version
+ends 0 '^  ./book figures ' help figures
+ends 2 'help: there is no command nonsense' help nonsense
 ends 2 'nonsense: there is no such command' nonsense
 ends 2 'chapter 99: there is none; there are: 1' run 99
 ends 2 'chapter x: there is none' run x

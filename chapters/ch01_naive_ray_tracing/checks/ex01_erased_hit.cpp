@@ -19,6 +19,7 @@ const Ray ahead{.origin = {0, 0, 0}, .direction = {0, 0, -1}};
 
 TEST_CASE("a later triangle that is missed erases nothing") {
     const std::array triangles{at_depth(3), at_depth(2, 10), at_depth(5, -10)};
+    INFO("the ray hits triangle 0 at t = 3, and misses 1 and 2");
     const auto seen = what_the_ray_sees(triangles, ahead);
     REQUIRE(seen);
     CHECK(seen->t == 3.0f);
@@ -27,6 +28,7 @@ TEST_CASE("a later triangle that is missed erases nothing") {
 
 TEST_CASE("the nearest hit wins, wherever it stands in the list") {
     const std::array triangles{at_depth(4), at_depth(2), at_depth(3)};
+    INFO("the ray hits triangles 0, 1 and 2 at t = 4, 2 and 3");
     const auto seen = what_the_ray_sees(triangles, ahead);
     REQUIRE(seen);
     CHECK(seen->t == 2.0f);
@@ -35,6 +37,7 @@ TEST_CASE("the nearest hit wins, wherever it stands in the list") {
 
 TEST_CASE("of two equal hits the smaller index wins") {
     const std::array triangles{at_depth(4), at_depth(2), at_depth(2)};
+    INFO("the ray hits triangles 0, 1 and 2 at t = 4, 2 and 2");
     const auto seen = what_the_ray_sees(triangles, ahead);
     REQUIRE(seen);
     CHECK(seen->triangle == 1);

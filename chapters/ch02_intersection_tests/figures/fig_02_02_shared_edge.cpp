@@ -84,7 +84,7 @@ Svg fig_02_02(const Options&) {
     svg.line(beside(0.3f, -14), beside(0.62f, -14), {.stroke = Ink::vermillion, .arrow = true});
     svg.circle(view(aim.at(1.0f)), 9, {.stroke = Ink::ink}, "glass");
     const std::array<std::pair<Point2, const char*>, 4> names{
-        {{moved(a, -14, 14), "*a*"},
+        {{moved(a, -14, 2), "*a*"},
          {moved(view(corner_b), 14, 14), "*b*"},
          {moved(c, 14, 0), "*c*"},
          {moved(view(corner_d), -14, 2), "*d*"}}};
