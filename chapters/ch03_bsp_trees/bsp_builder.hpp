@@ -7,6 +7,7 @@
 #include "common/limit_error.hpp"
 #include "common/observer.hpp"
 #include "common/pcg32.hpp"
+#include "common/zero_area.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -180,7 +181,7 @@ class BspBuilder {
         if constexpr (D == 2)
             return polygon.a != polygon.b;
         else
-            return !is_on_a_line(polygon);
+            return !has_zero_area(polygon);
     }
 
     std::uint32_t next_node() const { return static_cast<std::uint32_t>(tree_.nodes.size()); }

@@ -235,13 +235,6 @@ int exact_side(const Simplex<D>& plane, const Point<D>& point) {
     return sgn(WholePlane<D>(plane).distance(units<D>(point)));
 }
 
-bool is_on_a_line(const Triangle& polygon) {
-    const SplitPlane<3> quick(polygon);
-    if (one_norm<3>(quick.normal) > sum_roundings * quick.size) return false;
-    const WholePlane<3> plane(polygon);
-    return plane.normal[0] == 0 && plane.normal[1] == 0 && plane.normal[2] == 0;
-}
-
 std::array<mpq_class, 3> exact_point(const Meet<3>& meet) {
     std::array<mpq_class, 3> result;
     if (const auto corner = own_corner(meet)) {

@@ -48,9 +48,6 @@ int exact_side(const Simplex<D>& plane, const Meet<D>& meet);
 template <int D>
 int exact_side(const Simplex<D>& plane, const Point<D>& point);
 
-/// Whether the three points lie on one line, exactly.
-bool is_on_a_line(const Triangle& polygon);
-
 /// The point itself, rounded from the exact one.
 template <int D>
 Approximation<D> approximate(const Meet<D>& meet);

@@ -236,29 +236,6 @@ TEST_CASE("the filter leaves less than one side in a thousand of random corners 
           0.999 * static_cast<double>(tally.decisions));
 }
 
-TEST_CASE("three points on a line in double that are none in exact arithmetic are told apart") {
-    const float n = 0x1p23f, e = 0x1p-29f;
-    const Triangle thin{{e, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}},
-        line{{0, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}};
-    CHECK_FALSE(is_on_a_line(thin));
-    CHECK(is_on_a_line(line));
-    CHECK(cgal_side(thin, Double3(0, 0, 1)) != 0);
-    CHECK(cgal_side(line, Double3(0, 0, 1)) == 0);
-}
-
-TEST_CASE("three points on a line are found there, whatever normal double computes for them") {
-    Pcg32 random(14);
-    int crooked = 0;
-    for (int i = 0; i < 100; ++i) {
-        const float x = ordinary(random), y = ordinary(random), z = ordinary(random);
-        const Point3 p(x, y, z);  // differences of its multiples have more bits than double
-        const Triangle line{-0x1p-40f * p, p, 0x1p10f * p};
-        crooked += one_norm<3>(SplitPlane<3>(line).normal) > 0.0;
-        CHECK(is_on_a_line(line));
-    }
-    CHECK(crooked > 50);
-}
-
 // ---- properties
 // -------------------------------------------------------------------------------------------------
 
@@ -325,22 +302,6 @@ TEST_CASE("property: both polygons of an edge round its cut to the same point, b
         const Approximation<3> a = approximate(one), b = approximate(other);
         RC_ASSERT(a.at == b.at);
         RC_ASSERT(a.error == b.error);
-    }));
-}
-
-TEST_CASE("property: exactly the points on a line have no plane") {
-    CHECK(rc::check([] {
-        const Triangle p = some_plane();
-        const auto steps = *rc::gen::inRange(-3, 4);
-        const Triangle line{p[0], p[1],
-                            p[0] + static_cast<float>(steps) * (p[1] - p[0])};  // sums are exact
-        RC_ASSERT(is_on_a_line(line));
-        Triangle bent = line;
-        bent.c.x = std::nextafter(bent.c.x, infinity);
-        RC_ASSERT(is_on_a_line(bent) == (cgal_side(bent, Double3(0, 0, 0)) == 0 &&
-                                         cgal_side(bent, Double3(1, 0, 0)) == 0 &&
-                                         cgal_side(bent, Double3(0, 1, 0)) == 0 &&
-                                         cgal_side(bent, Double3(0, 0, 1)) == 0));
     }));
 }
 

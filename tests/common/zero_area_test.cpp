@@ -1,30 +1,19 @@
-// Zero area, decided exactly: against CGAL's exact predicate.
-#include "common/mesh.hpp"
+// Zero area, decided exactly: against the oracle's rational numbers.
+#include "common/zero_area.hpp"
+
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
+#include "tests/oracle/exact.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace space {
 namespace {
 
-bool exactly_degenerate(const Triangle& triangle) {
-    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-    const auto point = [](const Point3& p) { return Point(p.x, p.y, p.z); };
-    return CGAL::collinear(point(triangle.a), point(triangle.b), point(triangle.c));
-}
-
-std::size_t disagreements(const std::vector<Triangle>& triangles) {
-    std::size_t count = 0;
-    for (const Triangle& triangle : triangles)
-        count += (count_degenerate({&triangle, 1}) == 1) != exactly_degenerate(triangle);
-    return count;
-}
-
-TEST_CASE("degenerate triangles are counted as the exact predicate counts them", "[mesh]") {
+TEST_CASE("exactly the triangles whose corners lie on a line have zero area") {
     Pcg32 random(1);
     std::vector<Triangle> triangles;
     const auto integer = [&](int range) {
@@ -80,21 +69,37 @@ TEST_CASE("degenerate triangles are counted as the exact predicate counts them",
             for (const Point3& b : corners)
                 for (const Point3& c : corners) triangles.push_back({a, b, c});
     }
-    const std::size_t degenerate = count_degenerate(triangles);
-    CHECK(degenerate > 0);
-    CHECK(degenerate < triangles.size());
-    CHECK(disagreements(triangles) == 0);
+    const auto count = std::count_if(triangles.begin(), triangles.end(), has_zero_area);
+    CHECK(count > 0);
+    CHECK(count < static_cast<std::ptrdiff_t>(triangles.size()));
+    CHECK(std::none_of(triangles.begin(), triangles.end(), [](const Triangle& triangle) {
+        return has_zero_area(triangle) != is_degenerate(triangle);
+    }));
 }
 
-TEST_CASE("a sum that cancels in double but not exactly is not called zero", "[mesh]") {
+TEST_CASE("a sum that cancels in double but not exactly is not called zero") {
     // The six products differ by 2^60 and more, so that the small ones vanish in a rounded sum.
-    const Triangle triangle{
-        {0x1p40f, 0x1p40f, 0.0f}, {0x1p-20f, 0.0f, 0.0f}, {0.0f, 0x1p-20f, 0.0f}};
-    CHECK_FALSE(exactly_degenerate(triangle));
-    CHECK(count_degenerate({&triangle, 1}) == 0);
-    const Triangle needle{
-        {0, 0, 0}, {0x1p40f, 0x1p40f, 0.0f}, {0x1p40f, std::nextafter(0x1p40f, infinity), 0.0f}};
-    CHECK(count_degenerate({&needle, 1}) == 0);
+    CHECK_FALSE(
+        has_zero_area({{0x1p40f, 0x1p40f, 0.0f}, {0x1p-20f, 0.0f, 0.0f}, {0.0f, 0x1p-20f, 0.0f}}));
+    CHECK_FALSE(has_zero_area(
+        {{0, 0, 0}, {0x1p40f, 0x1p40f, 0.0f}, {0x1p40f, std::nextafter(0x1p40f, infinity), 0.0f}}));
+    // The same in the differences of corners.
+    const float n = 0x1p23f, e = 0x1p-29f;
+    CHECK_FALSE(has_zero_area({{e, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}}));
+    CHECK(has_zero_area({{0, 0, 0}, {n + 1, n, 0}, {-n - 1, -n, 0}}));
+}
+
+TEST_CASE("corners on a line have zero area, whatever normal double computes for them") {
+    Pcg32 random(14);
+    int crooked = 0;
+    for (int i = 0; i < 100; ++i) {
+        const float x = random.uniform(-1.0f, 1.0f), y = random.uniform(-1.0f, 1.0f);
+        const Point3 p(x, y, random.uniform(-1.0f, 1.0f));
+        const Triangle line{-0x1p-40f * p, p, 0x1p10f * p};  // differences longer than a double
+        crooked += normal(line) != Double3(0.0);
+        CHECK(has_zero_area(line));
+    }
+    CHECK(crooked > 50);
 }
 
 }  // namespace
