@@ -68,11 +68,11 @@ class Cutter {
         : polygons_(polygons), planes_(planes), grade_(grade), thickness_(thickness) {}
 
     /// Of each corner: 1 in front of the plane, 0 on it, -1 behind.
-    void corner_sides(const Fragment<D>& fragment, std::uint32_t plane,
+    void corner_sides(const Fragment<D>& fragment, const SplitPlane<D>& plane,
                       std::vector<int>& sides) const {
         sides.clear();
         for (const Corner& corner : fragment.corners)
-            sides.push_back(side(fragment, corner, planes_[plane]));
+            sides.push_back(side(fragment, corner, plane));
     }
 
     // [classify]

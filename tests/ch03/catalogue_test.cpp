@@ -33,7 +33,7 @@ std::vector<Fragment<3>> cut_by_all(const std::vector<Triangle>& polygons,
         for (std::uint32_t plane = 0; plane < planes.size() && i % every == 0; ++plane) {
             std::vector<Fragment<3>> finer;
             for (Fragment<3>& piece : pieces) {
-                cutter.corner_sides(piece, plane, sides);
+                cutter.corner_sides(piece, planes[plane], sides);
                 if (Cutter<3>::classify(sides) != PlaneSide::straddling) {
                     finer.push_back(std::move(piece));
                     continue;
@@ -81,7 +81,7 @@ TEST_CASE(
         const Fragment<3> fragment = whole_polygon<3>(polygons[0], 0);
         const auto side = [&](Grade grade, double thickness) {
             std::vector<int> sides;
-            Cutter<3>(polygons, planes, grade, thickness).corner_sides(fragment, 0, sides);
+            Cutter<3>(polygons, planes, grade, thickness).corner_sides(fragment, planes[0], sides);
             return sides[0];
         };
         const int expected = cgal_side(planes[0].through, fragment.corners[0].at),
@@ -120,7 +120,7 @@ TEST_CASE(
     const auto place = [&](double thickness) {
         std::vector<int> sides;
         Cutter<3>(noisy, ground, Grade::ordered_float, thickness)
-            .corner_sides(whole_polygon<3>(noisy[0], 0), 0, sides);
+            .corner_sides(whole_polygon<3>(noisy[0], 0), ground[0], sides);
         return Cutter<3>::classify(sides);
     };
     CHECK(place(0.0) == PlaneSide::straddling);
@@ -185,7 +185,7 @@ TEST_CASE(
             for (std::uint32_t k = 0; k < 2; ++k) {
                 const Fragment<3> fragment = whole_polygon<3>(pair[k], k);
                 std::vector<int> sides;
-                cutter.corner_sides(fragment, 0, sides);
+                cutter.corner_sides(fragment, planes[0], sides);
                 if (sides[0] * sides[1] >= 0) continue;
                 const auto [front, back] = cutter.split(fragment, sides, 0);
                 for (const Fragment<3>* half :
@@ -289,7 +289,7 @@ TEST_CASE(
         int strictly = 0, loosely = 0;
         for (std::uint32_t i = 0; i < polygons.size(); ++i) {
             Cutter<3>(polygons, planes, Grade::exact, 0.0)
-                .corner_sides(whole_polygon<3>(polygons[i], i), 0, sides);
+                .corner_sides(whole_polygon<3>(polygons[i], i), planes[0], sides);
             strictly += Cutter<3>::classify(sides) == PlaneSide::front ||
                         Cutter<3>::classify(sides) == PlaneSide::back;
             loosely += std::all_of(sides.begin(), sides.end(), [](int side) { return side <= 0; });

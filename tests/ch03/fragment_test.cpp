@@ -35,7 +35,7 @@ struct Scene {
     std::vector<int> sides(Grade grade, const Fragment<D>& fragment,
                            std::uint32_t plane = 0) const {
         std::vector<int> result;
-        cutter(grade).corner_sides(fragment, plane, result);
+        cutter(grade).corner_sides(fragment, planes[plane], result);
         return result;
     }
     auto split(Grade grade, const Fragment<D>& fragment, std::uint32_t plane = 0) const {

@@ -17,9 +17,10 @@ namespace space::ch03 {
 namespace {
 
 /// The part of a polygon in front of a plane, by the chapter's cutter.
-Fragment<3> front_of(const Cutter<3>& cutter, const Fragment<3>& fragment, std::uint32_t plane) {
+Fragment<3> front_of(const Cutter<3>& cutter, const Fragment<3>& fragment,
+                     std::span<const SplitPlane<3>> planes, std::uint32_t plane) {
     std::vector<int> sides;
-    cutter.corner_sides(fragment, plane, sides);
+    cutter.corner_sides(fragment, planes[plane], sides);
     if (Cutter<3>::classify(sides) != PlaneSide::straddling) return fragment;
     return cutter.split(fragment, sides, plane).first;
 }
@@ -36,7 +37,8 @@ struct Neighbours {
         const Cutter<3> cutter(triangles, planes, grade, 0.0);
         std::array<Double3, 2> points;
         for (std::uint32_t i = 0; i < 2; ++i) {
-            const Fragment<3> front = front_of(cutter, whole_polygon<3>(triangles[i], i), 0);
+            const Fragment<3> front =
+                front_of(cutter, whole_polygon<3>(triangles[i], i), planes, 0);
             for (const auto& corner :
                  front.corners)  // the new corner on the common edge is near p - q
                 if (on_edge(corner.at)) points[i] = corner.at;
@@ -98,8 +100,8 @@ void draw_fragment(Svg& svg) {
         SplitPlane<3>({Point3(4.5f, 11, 0), Point3(3, 0, 0), Point3(3, 0, -1)}),
         SplitPlane<3>({Point3(0, 4, 0), Point3(16, 7, 0), Point3(0, 4, 1)})};
     const Cutter<3> cutter(triangle, planes, Grade::exact, 0.0);
-    const Fragment<3> fragment =
-        front_of(cutter, front_of(cutter, whole_polygon<3>(triangle[0], 0), 0), 1);
+    const Fragment<3> half = front_of(cutter, whole_polygon<3>(triangle[0], 0), planes, 0),
+                      fragment = front_of(cutter, half, planes, 1);
     const auto paper = [](const Double3& p) { return at(10 + 22 * p.x, 254 - 22 * p.y); };
     const auto outline = [&](const auto& corners) {
         std::vector<Point2> points;

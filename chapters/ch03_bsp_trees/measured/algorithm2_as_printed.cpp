@@ -31,7 +31,7 @@ class AsPrinted {
         std::vector<Fragment<3>> positive, negative;
         for (const Fragment<3>& fragment : set) {  // lines 4 to 15
             std::vector<int> sides;
-            cutter.corner_sides(fragment, plane, sides);
+            cutter.corner_sides(fragment, planes_.back(), sides);
             const PlaneSide side = Cutter<3>::classify(sides);
             if (side == PlaneSide::front)
                 positive.push_back(fragment);

@@ -45,7 +45,7 @@ void classify(benchmark::State& state) {
     std::vector<int> sides;
     std::uint32_t i = 0;
     for (auto _ : state) {
-        cutter.corner_sides(soup().fragments[i % 1024], i / 7 % 1024, sides);
+        cutter.corner_sides(soup().fragments[i % 1024], soup().planes[i / 7 % 1024], sides);
         benchmark::DoNotOptimize(Cutter<3>::classify(sides));
         ++i;
     }
@@ -63,7 +63,7 @@ void split(benchmark::State& state) {
     for (std::uint32_t fragment = 0; fragment < 64; ++fragment)
         for (std::uint32_t plane = 0; plane < 1024; ++plane) {
             Cut cut{fragment, plane, {}};
-            cutter.corner_sides(soup().fragments[fragment], plane, cut.sides);
+            cutter.corner_sides(soup().fragments[fragment], soup().planes[plane], cut.sides);
             if (Cutter<3>::classify(cut.sides) == PlaneSide::straddling) cuts.push_back(cut);
         }
     std::size_t i = 0;
