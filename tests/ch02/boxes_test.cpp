@@ -5,9 +5,9 @@
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 #include "chapters/ch02_intersection_tests/oriented_box.hpp"
 #include "tests/catch.hpp"
+#include "tests/exact_vector.hpp"
 
 #include <glm/gtc/quaternion.hpp>
-#include <gmpxx.h>
 
 #include <bit>
 #include <cstdio>
@@ -17,10 +17,6 @@ namespace space::ch02 {
 namespace {
 
 constexpr int pairs_each = sized(20'000, 1'000);
-
-mpq_class rational(float x) {
-    return mpq_class(double{x});
-}
 
 /// The ray's part in the closed box: an end is absent where nothing bounds it.
 struct RationalInterval {
@@ -35,11 +31,12 @@ std::optional<RationalInterval> rational_interval(const Ray& ray, const Aabb& bo
     const auto at_most = [&](const mpq_class& t) {
         if (!part.leave || t < *part.leave) part.leave = t;
     };
-    if (std::isfinite(ray.tmin)) at_least(rational(ray.tmin));
-    if (std::isfinite(ray.tmax)) at_most(rational(ray.tmax));
+    if (std::isfinite(ray.tmin)) at_least(mpq_class(ray.tmin));
+    if (std::isfinite(ray.tmax)) at_most(mpq_class(ray.tmax));
+    const ExactVector<3> o = exact(ray.origin), lows = exact(box.min) - o,
+                         highs = exact(box.max) - o, direction = exact(ray.direction);
     for (int axis = 0; axis < 3; ++axis) {
-        const mpq_class o = rational(ray.origin[axis]), d = rational(ray.direction[axis]);
-        const mpq_class low = rational(box.min[axis]) - o, high = rational(box.max[axis]) - o;
+        const mpq_class &low = lows[axis], &high = highs[axis], &d = direction[axis];
         if (low > high) return std::nullopt;
         if (d == 0) {
             if (low > 0 || high < 0) return std::nullopt;
@@ -171,9 +168,9 @@ Misses conservative_misses(int each) {
         if (!exact || !found) return;
         if (std::isnan(found->enter) || std::isnan(found->leave)) ++count.too_late;
         if (std::isfinite(found->enter))
-            count.too_late += exact->enter && rational(found->enter) > *exact->enter;
+            count.too_late += exact->enter && mpq_class(found->enter) > *exact->enter;
         if (std::isfinite(found->leave))
-            count.too_early += !exact->leave || rational(found->leave) < *exact->leave;
+            count.too_early += !exact->leave || mpq_class(found->leave) < *exact->leave;
         if (found->enter == infinity)
             count.too_late += exact->enter && *exact->enter < mpq_class(0x1p127) * 2;
         if (found->leave == -infinity) ++count.too_early;

@@ -5,8 +5,7 @@
 #include "chapters/ch02_intersection_tests/measured/exact_deciders.hpp"
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 #include "tests/catch.hpp"
-
-#include <gmpxx.h>
+#include "tests/exact_vector.hpp"
 
 namespace space::ch02 {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 constexpr int rounds = sized(20'000, 1'000);
 
 template <std::size_t N>
-mpq_class exact(const Expansion<N>& e) {
+mpq_class exact_value(const Expansion<N>& e) {
     mpq_class sum = 0;
     for (std::size_t i = 0; i < e.size; ++i) sum += mpq_class(e.part[i]);
     return sum;
@@ -39,7 +38,7 @@ bool well_formed(const Expansion<N>& e) {
 
 template <std::size_t N>
 bool is(const Expansion<N>& e, const mpq_class& expected) {
-    if (exact(e) != expected || !well_formed(e) || e.sign() != sgn(expected)) return false;
+    if (exact_value(e) != expected || !well_formed(e) || e.sign() != sgn(expected)) return false;
     return abs(mpq_class(e.value()) - expected) <= abs(expected) * mpq_class(0x1p-52);
 }
 
@@ -98,7 +97,7 @@ TEST_CASE(
 TEST_CASE("parts without common bits are not enough for the value, nonadjacent parts are") {
     Expansion<3> loose;
     for (const double part : {-(0x1p7 - 0x1p-46), -(0x1p60 - 0x1p7), 0x1p60}) loose.push(part);
-    REQUIRE(exact(loose) == mpq_class(0x1p-46));
+    REQUIRE(exact_value(loose) == mpq_class(0x1p-46));
     CHECK_FALSE(well_formed(loose));
     CHECK(loose.value() == 0.0);
     // The same numbers added up: one part is left.
@@ -131,18 +130,13 @@ TEST_CASE("the exact sphere's quadratic is that of rational numbers, and so is i
                    .direction = {0.0f, random.uniform() < 0.5f ? 0.0f : 0x1p-60f, -3.0f}},
             sphere.centre = Point3(0.0f);
         const ExactQuadratic q(ray, sphere);
-        mpq_class a = 0, b = 0, c = -mpq_class(sphere.radius) * mpq_class(sphere.radius);
-        for (int axis = 0; axis < 3; ++axis) {
-            const mpq_class d(ray.direction[axis]),
-                f = mpq_class(ray.origin[axis]) - mpq_class(sphere.centre[axis]);
-            a += d * d;
-            b += f * d;
-            c += f * f;
-        }
-        REQUIRE(exact(q.a) == a);
-        REQUIRE(exact(q.b) == b);
-        REQUIRE(exact(q.c) == c);
-        REQUIRE(exact(q.discriminant) == b * b - a * c);
+        const ExactVector<3> d = exact(ray.direction), f = exact(ray.origin) - exact(sphere.centre);
+        const mpq_class a = dot(d, d), b = dot(f, d), radius(sphere.radius),
+                        c = dot(f, f) - radius * radius;
+        REQUIRE(exact_value(q.a) == a);
+        REQUIRE(exact_value(q.b) == b);
+        REQUIRE(exact_value(q.c) == c);
+        REQUIRE(exact_value(q.discriminant) == b * b - a * c);
         REQUIRE(q.discriminant.sign() == sgn(mpq_class(b * b - a * c)));
         // Some root is >= 0: the sum of the roots is -2 b / a, their product c / a.
         const bool expected = b * b >= a * c && (c <= 0 || b <= 0);

@@ -4,8 +4,7 @@
 #include "chapters/ch02_intersection_tests/measured/signs.hpp"
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
-
-#include <gmpxx.h>
+#include "tests/exact_vector.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,25 +16,7 @@ namespace {
 
 constexpr int climbs = 10, steps = 20'000;
 
-/// Long enough for sums of products of three differences of floats from 2^-60 to 2^60.
-using Exact = mpf_class;
-constexpr int exact_bits = 1024;
-using ExactVector = std::array<Exact, 3>;
-
-ExactVector exact(const Vector3& v) {
-    return {Exact(double{v.x}, exact_bits), Exact(double{v.y}, exact_bits),
-            Exact(double{v.z}, exact_bits)};
-}
-ExactVector operator-(const ExactVector& a, const ExactVector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-ExactVector cross(const ExactVector& a, const ExactVector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Exact dot(const ExactVector& a, const ExactVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Exact outside(const Exact& x, const Exact& end) {
+mpq_class outside(const mpq_class& x, const mpq_class& end) {
     return abs(x - end / 2) - abs(end) / 2;
 }
 
@@ -58,18 +39,20 @@ Shares shares_of(const FilterInput& input) {
     const double bound = FilteredExact::outside_bound(sizes);
     if (!(bound > 0.0)) return {};
 
-    const ExactVector ea = exact(corner_a), ed = exact(direction), ee1 = exact(corner_b) - ea,
-                      ee2 = exact(corner_c) - ea, es = exact(origin) - ea;
-    const ExactVector ep = cross(ed, ee2), eq = cross(es, ee1);
-    const Exact exact_det = dot(ep, ee1), exact_u = dot(ep, es), exact_v = dot(eq, ed);
-    const auto share = [](const Exact& error, double of) { return Exact(abs(error) / of).get_d(); };
+    const ExactVector<3> ea = exact(corner_a), ed = exact(direction), ee1 = exact(corner_b) - ea,
+                         ee2 = exact(corner_c) - ea, es = exact(origin) - ea;
+    const ExactVector<3> ep = cross(ed, ee2), eq = cross(es, ee1);
+    const mpq_class exact_det = dot(ep, ee1), exact_u = dot(ep, es), exact_v = dot(eq, ed);
+    const auto share = [](const mpq_class& error, double of) {
+        return mpq_class(abs(error) / of).get_d();
+    };
     Shares result;
     result.u = share(u_outside - outside(exact_u, exact_det), bound);
     result.v = share(v_outside - outside(exact_v, exact_det - exact_u), bound);
     if (u_outside < -bound && v_outside < -bound) {
         const double inverse = 1.0 / det, t = glm::dot(q, e2) * inverse,
                      slack = FilteredExact::t_bound(sizes, t, inverse);
-        const Exact exact_t = dot(eq, ee2) / exact_det;
+        const mpq_class exact_t = dot(eq, ee2) / exact_det;
         const double low = t - slack, high = t + slack;
         result.t = exact_t < t ? share(t - exact_t, t - low) : share(exact_t - t, high - t);
     }
