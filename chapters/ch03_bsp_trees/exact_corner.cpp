@@ -147,10 +147,10 @@ Approximation<D> rounded(const Homogeneous<D>& point) {
         const double numerator = mpz_get_d_2exp(&exponent, point.numerator[axis].get_mpz_t());
         const auto scale = static_cast<int>(exponent - denominator_exponent) - unit_exponent;
         result.at[axis] = std::ldexp(numerator / denominator, scale);
-        // Two truncations to 53 bits and a rounded quotient: less than six half places. What
-        // underflows is below 2^-1000.
+        // Two truncations to 53 bits, of which one makes the quotient smaller and one larger, and
+        // its rounding: three half places, and a little. What underflows is below 2^-1000.
         result.error =
-            std::max(result.error, 6.0 * 0x1p-53 * std::abs(result.at[axis]) + 0x1p-1000);
+            std::max(result.error, 4.0 * double_roundoff * std::abs(result.at[axis]) + 0x1p-1000);
     }
     return result;
 }
@@ -167,7 +167,9 @@ bool before(const Point<D>& p, const Point<D>& q) {
     return false;
 }
 
-/// Where the line through p and q meets the plane, in double.
+/// Where the line through p and q meets the plane, in double. A third of s_error is spare for the
+/// same reasons as in cross_plane, and at least ten roundings of s: they pay for those of s, of the
+/// way along the line and of the bound. That of the last sum remains.
 template <int D>
 std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>& q,
                                                const SplitPlane<D>& plane) {
@@ -176,18 +178,18 @@ std::optional<Approximation<D>> meet_in_double(const Point<D>& p, const Point<D>
     const Estimate at_p = along_normal(plane, start - anchor),
                    at_q = along_normal(plane, Double<D>(q) - anchor);
     const double difference = at_p.value - at_q.value, difference_error = at_p.error + at_q.error;
-    const double left = std::abs(difference) - difference_error;
-    if (!(left > 0.0)) return std::nullopt;
+    if (!(std::abs(difference) > 2.0 * difference_error)) return std::nullopt;
     const double s = at_p.value / difference,
-                 s_error = (at_p.error + std::abs(s) * difference_error) / left;
+                 s_error = (at_p.error + std::abs(s) * difference_error) / std::abs(difference);
     if (!(s_error < good_enough)) return std::nullopt;
-    return Approximation<D>{start + s * way, (s_error + sum_roundings) * one_norm<D>(way) +
-                                                 sum_roundings * one_norm<D>(start)};
+    return Approximation<D>{start + s * way,
+                            s_error * one_norm<D>(way) + sum_roundings * one_norm<D>(start)};
 }
 
 /// Where three planes meet, by Cramer's rule about a point nearby, in double. A term of the
 /// determinant carries at most 17 roundings (four in each normal, two products, three sums), one of
-/// a numerator 20; 1.5 sum_roundings are 24, and pay for the bound's own, too.
+/// a numerator 20; with that of the quotient and of the sum they are 22. 1.5 sum_roundings are 24,
+/// and pay for the bound's own, too.
 std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const SplitPlane<3>& b,
                                                const SplitPlane<3>& c) {
     const Double3 near(a.through[0]);
@@ -197,15 +199,11 @@ std::optional<Approximation<3>> meet_in_double(const SplitPlane<3>& a, const Spl
                   from_c = Double3(c.through[0]) - near;  // a's offset is 0
     const Double3 numerator = glm::dot(b.normal, from_b) * ca + glm::dot(c.normal, from_c) * ab;
     const double denominator = glm::dot(a.normal, bc);
-    const double volume = 1.5 * sum_roundings * a.size * b.size * c.size,
-                 reach = one_norm<3>(from_b) + one_norm<3>(from_c);
-    const double left = std::abs(denominator) - volume;
-    if (!(left > 0.0)) return std::nullopt;
+    const double part = 1.5 * sum_roundings * a.size * b.size * c.size / std::abs(denominator);
+    if (!(part < good_enough)) return std::nullopt;
     const Double3 from_near = numerator / denominator;
-    const double error = volume * (reach + one_norm<3>(from_near)) / left;
-    if (!(error < good_enough * (reach + one_norm<3>(from_near)))) return std::nullopt;
-    return Approximation<3>{near + from_near,
-                            error + sum_roundings * (one_norm<3>(near) + one_norm<3>(from_near))};
+    const double reach = one_norm<3>(from_b) + one_norm<3>(from_c) + one_norm<3>(from_near);
+    return Approximation<3>{near + from_near, part * reach + sum_roundings * one_norm<3>(near)};
 }
 
 template <int D>
