@@ -38,7 +38,8 @@ struct BspTree {
     /// Painter's order (Fuchs, Kedem & Naylor 1980, section 3): calls draw(fragment) from the
     /// farthest to the nearest as seen from the eye, in a tree made by cutting (shared polygons
     /// stick out of their cells). What lies behind a plane, seen from the eye, can't cover what
-    /// lies before it. The stack is our own: a tree may be deeper than the machine's stack.
+    /// lies before it; to an eye in the plane neither half covers the other, and either order is
+    /// right. The stack is our own: a tree may be deeper than the machine's stack.
     template <class Draw>
     void back_to_front(const Point<D>& eye, const Draw& draw) const {
         struct Task {

@@ -12,8 +12,9 @@
 
 namespace space {
 
-/// Calls pixel(x, y, ray) for the pixels around the corners' picture: for all of them where a
-/// corner lies beside or behind the eye, and so has none.
+/// Calls pixel(x, y, ray) for the pixels that the box around the corners' picture touches: for all
+/// of them where a corner lies beside or behind the eye, and so has none. Centres that are covered
+/// lie half a pixel within that: room for rounding.
 template <class Corners, class Pixel>
 void for_pixels_around(const Corners& corners, const PixelGrid& grid, const Pixel& pixel) {
     const Camera& camera = grid.camera;
@@ -24,8 +25,8 @@ void for_pixels_around(const Corners& corners, const PixelGrid& grid, const Pixe
         const Double3 seen = world_to_camera(camera, grid.frame, corner);
         const bool behind = depth(seen) < near;
         const glm::dvec2 at = camera_to_pixel(grid.frame, seen, grid.width, grid.height);
-        low = behind ? glm::dvec2(0.0) : glm::min(low, at - 1.0);  // a pixel's room for rounding
-        high = behind ? size : glm::max(high, at + 1.0);
+        low = behind ? glm::dvec2(0.0) : glm::min(low, at);
+        high = behind ? size : glm::max(high, at);
     }
     low = glm::max(low, 0.0);
     high = glm::min(high, size);

@@ -282,24 +282,30 @@ TEST_CASE(
     // middle between the largest float and what would follow it; the plane's tilt makes it differ
     // by 2^-84 of itself.
     bool from_behind = false;
-    const auto with_tilt = [&](float tilt, float tmax) {
-        const Ray ray{{0x1p-36f, 0x1p-36f, 0x1p24f}, {0, 0, -0x1p-104f}, 0.0f, tmax};
+    float way = 1.0f;  // or backwards: t and the interval change their signs
+    const auto with_tilt = [&](float tilt, float end) {
+        const Ray ray{{0x1p-36f, 0x1p-36f, 0x1p24f},
+                      {0, 0, -way * 0x1p-104f},
+                      std::min(0.0f, way * end),
+                      std::max(0.0f, way * end)};
         const Point3 a(0, 0, 0.5f), b(1, 0, 0.5f + tilt), c(0, 1, 0.5f);
         return RayAndTriangle{ray, from_behind ? Triangle{a, c, b} : Triangle{a, b, c}};
     };
     Outcome outcome;
     constexpr float largest = std::numeric_limits<float>::max();
-    for (const bool behind : {false, true}) {
-        from_behind = behind;
-        CHECK(compare_one(with_tilt(0x1p-23f, infinity), outcome) == largest);
-        CHECK(compare_one(with_tilt(0x1p-23f, largest), outcome) == largest);
-        CHECK(compare_one(with_tilt(0.0f, infinity), outcome) == infinity);
-        CHECK(compare_one(with_tilt(-0x1p-23f, infinity), outcome) == infinity);
-        CHECK(compare_one(with_tilt(-0x1p-23f, largest), outcome) == std::nullopt);
-    }
+    for (const bool behind : {false, true})
+        for (const float sign : {1.0f, -1.0f}) {
+            from_behind = behind;
+            way = sign;
+            CHECK(compare_one(with_tilt(0x1p-23f, infinity), outcome) == way * largest);
+            CHECK(compare_one(with_tilt(0x1p-23f, largest), outcome) == way * largest);
+            CHECK(compare_one(with_tilt(0.0f, infinity), outcome) == way * infinity);
+            CHECK(compare_one(with_tilt(-0x1p-23f, infinity), outcome) == way * infinity);
+            CHECK(compare_one(with_tilt(-0x1p-23f, largest), outcome) == std::nullopt);
+        }
     INFO(outcome.text());
     CHECK(outcome.right());
-    CHECK(outcome.stages[Stage::expansions] == 10);
+    CHECK(outcome.stages[Stage::expansions] == 20);
 }
 
 /// A ray straight down at a plane that is tilted so little that t differs from a number half-way

@@ -75,6 +75,18 @@ struct Root : NoObserver {
         back += event.side == PlaneSide::back;
     }
 };
+/// Every side has all others behind it.
+Set convex_body() {
+    Set body;
+    for (int i = 0; i < 32; ++i) {
+        const auto corner = [](int k) {
+            const double angle = -6.283185307179586 * k / 32;
+            return Point2(std::cos(angle), std::sin(angle));
+        };
+        body.push_back({corner(i), corner(i + 1)});
+    }
+    return body;
+}
 Root root_of(const Set& set, const BspConfig& config) {
     Root root;
     BspBuilder<2>::build(set, config, root);
@@ -140,14 +152,7 @@ TEST_CASE("an order that is given comes first, whatever is chosen else") {
 }
 
 TEST_CASE("a free plane comes where all candidates are lopsided, and has something on both sides") {
-    Set body;  // convex: every side has all others behind it
-    for (int i = 0; i < 32; ++i) {
-        const auto corner = [](int k) {
-            const double angle = -6.283185307179586 * k / 32;
-            return Point2(std::cos(angle), std::sin(angle));
-        };
-        body.push_back({corner(i), corner(i + 1)});
-    }
+    const Set body = convex_body();
     const Root free = root_of(body, {.splitter = SplitterChoice::free});
     CHECK_FALSE(free.polygon);
     CHECK(free.front > 4);
@@ -158,6 +163,45 @@ TEST_CASE("a free plane comes where all candidates are lopsided, and has somethi
     // them.
     const Set same(20, Segment{{-1, 0.5f}, {1, 0.5f}});
     CHECK(root_of(same, {.splitter = SplitterChoice::free, .lopsided = 1.1}).polygon);
+}
+
+TEST_CASE("a free plane is no place to send a whole set to, however cheap") {
+    // A pencil through one point: each cuts all others. x = 0 cuts none, and has all on one side.
+    for (const float way : {2.0f, -2.0f}) {
+        Set pencil;
+        for (int i = 0; i < 20; ++i) pencil.push_back({Point2(0, i), Point2(way, 20 - i)});
+        CHECK(root_of(pencil,
+                      {.splitter = SplitterChoice::free, .lopsided = 1.1, .max_placed = 10'000})
+                  .polygon);
+    }
+}
+
+TEST_CASE("a free plane is counted exactly, however thick the planes of candidates are") {
+    // The whole body lies within 9/8 of a plane through its middle; of each side's the half does.
+    const Root free = root_of(convex_body(), {.splitter = SplitterChoice::free,
+                                              .split_weight = 1.0,
+                                              .thickness_in_roundings = 0x1.2p53});
+    CHECK_FALSE(free.polygon);
+    CHECK(free.front > 10);
+    CHECK(free.back > 10);
+}
+
+TEST_CASE("a candidate is said to cut only what leaves its thick plane on both sides") {
+    // 0 and 1 cross at an angle of a sixteenth; both have 2 on their left, and 2 has both behind.
+    const Set set{{{-8, 0}, {8, 0}}, {{8, -0.5f}, {-8, 0.5f}}, {{-8, 4}, {8, 4}}};
+    CHECK(root_of(set, {.thickness_in_roundings = 0x1p50}).polygon == 0u);  // one thick
+    CHECK(root_of(set, {.thickness_in_roundings = 0.0}).polygon == 2u);
+}
+
+TEST_CASE("planes that are not exact are as thick as eight roundings of their grade's numbers") {
+    const Set set{{{-4, 1}, {2, 3}}, {{1, 0}, {0, 1}}};
+    const auto thickness = [&](Grade grade) {
+        return thickness_of_planes<2>(set, {.grade = grade});
+    };
+    for (const Grade grade : {Grade::thick_float, Grade::ordered_float})
+        CHECK(thickness(grade) == 8.0 * 0x1p-24 * 4.0);
+    for (const Grade grade : {Grade::ordered_double, Grade::exact})
+        CHECK(thickness(grade) == 8.0 * 0x1p-53 * 4.0);
 }
 
 }  // namespace space

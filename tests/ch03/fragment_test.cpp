@@ -313,6 +313,19 @@ TEST_CASE("the exact grade keeps a sliver whose corners are the same in double")
                         [](const auto& f) { return f.polygon == 0; }) == 3);
 }
 
+TEST_CASE("a polygon lies in its own plane, whatever rounding says, and so every build ends") {
+    const std::vector<Triangle> polygons = scenes::soup(30, 0.7f, 5);
+    for (const Grade grade : grades) {
+        const BspTree<3> tree =
+            BspBuilder<3>::build(polygons, {.splitter = BspConfig::SplitterChoice::first,
+                                            .grade = grade,
+                                            .thickness_in_roundings = 0.0,
+                                            .max_placed = 30 * 30 * 30});
+        CHECK(std::all_of(tree.nodes.begin(), tree.nodes.end(),
+                          [](const auto& node) { return node.count > 0; }));
+    }
+}
+
 TEST_CASE("polygons stay as they were given, and fragments name theirs") {
     const std::vector<Triangle> polygons = scenes::soup(50, 0.7f, 4);
     for (const Grade grade : grades) {

@@ -85,13 +85,13 @@ TEST_CASE("a ring of triangles is painted right in pieces, and wrong in whole tr
 TEST_CASE("a fragment is painted in its own pixels only, by its triangle's hit") {
     const std::vector<Triangle> one{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}};
     const Camera camera{.eye = {0, 0, 3}, .target = {0, 0, 0}};
-    const std::vector<Triangle> with_knife{one[0], {{0, 5, -1}, {0, 6, -1}, {0, 5, 1}}};
-    const std::uint32_t order[] = {1};  // its plane x = 0 cuts the triangle
+    const std::vector<Triangle> with_knife{{{0, 5, -1}, {0, 6, -1}, {0, 5, 1}}, one[0]};
+    const std::uint32_t order[] = {0};  // its plane x = 0 cuts the triangle
     const BspTree<3> tree = BspBuilder<3>::build(with_knife, {.order = order});
     const FragmentRays covers(tree, Grade::exact);
     int halves = 0, left = 0, right = 0;
     for (const Fragment<3>& fragment : tree.fragments) {
-        if (fragment.polygon != 0) continue;
+        if (fragment.polygon != 1) continue;
         ++halves;
         int here = 0, beyond = 0;
         for_pixels_of(fragment, tree, covers, {camera, width, height},
@@ -99,7 +99,7 @@ TEST_CASE("a fragment is painted in its own pixels only, by its triangle's hit")
                           ++(x < width / 2 ? left : right);
                           ++here;
                           beyond +=
-                              !covers.meets(ray, fragment) || hit.triangle != 0 || hit.t <= 0.0f;
+                              !covers.meets(ray, fragment) || hit.triangle != 1 || hit.t <= 0.0f;
                       });
         CHECK(here > 0);
         CHECK(beyond == 0);
