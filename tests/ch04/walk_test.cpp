@@ -209,7 +209,7 @@ TEST_CASE("distances to planes: the largest error stays below its bound, and com
     }
     fmt::print("  distance to a plane: the largest error is {:.3f} of gamma(3)\n", worst);
     CHECK(worst < 1.0);
-    CHECK(worst > 0.6);
+    CHECK(worst > sized(0.6, 0.5));  // fewer samples come less near
 }
 
 TEST_CASE("clipped corners: the largest error stays below its margin, and is no tenth of it") {
