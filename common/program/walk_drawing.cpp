@@ -258,6 +258,16 @@ std::string interval(double enter, double leave) {
                        leave == double{infinity} ? ")" : "]");
 }
 
+double distance_along(const BasicRay<2>& ray, const Segment& segment) {
+    const Double2 o(ray.origin), d(ray.direction), a(segment.a), way = Double2(segment.b) - a;
+    const double turn = d.x * way.y - d.y * way.x;
+    if (turn == 0.0) return infinity;
+    const Double2 from = a - o;
+    const double t = (from.x * way.y - from.y * way.x) / turn,
+                 s = (from.x * d.y - from.y * d.x) / turn;
+    return t >= 0.0 && s >= 0.0 && s <= 1.0 ? t : double{infinity};
+}
+
 Svg walk_drawing(std::string title, const DrawnTree& tree, const BasicRay<2>& ray,
                  const std::vector<WalkStep>& steps) {
     const WalkPaper paper(tree, ray, steps);

@@ -48,6 +48,9 @@ struct WalkStep {
 std::string written_t(double t);
 std::string interval(double enter, double leave);
 
+/// The ray's t on a segment, in double; infinity where it misses.
+double distance_along(const BasicRay<2>& ray, const Segment& segment);
+
 /// The last step is what shows without scripts and on paper: let it sum up.
 Svg walk_drawing(std::string title, const DrawnTree& tree, const BasicRay<2>& ray,
                  const std::vector<WalkStep>& steps);

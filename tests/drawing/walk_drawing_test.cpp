@@ -27,6 +27,15 @@ TEST_CASE("names and intervals are written as drawings and as sentences write th
     CHECK(interval(-2.5, double{infinity}) == "[−2.5, ∞)");
 }
 
+TEST_CASE("a ray meets a segment at its t, ends included, and misses behind, beside and along it") {
+    const BasicRay<2> down{{2, 4}, {0, -1}};
+    CHECK(distance_along(down, {{1, 1}, {3, 1}}) == 3.0);
+    CHECK(distance_along(down, {{3, 1}, {2, 1}}) == 3.0);
+    CHECK(distance_along(down, {{1, 5}, {3, 5}}) == double{infinity});
+    CHECK(distance_along(down, {{3, 1}, {4, 1}}) == double{infinity});
+    CHECK(distance_along(down, {{2, 1}, {2, 3}}) == double{infinity});
+}
+
 TEST_CASE("each step of a walk shows its own part in hand, and the last one without scripts") {
     const DrawnTree tree{.size = 4,
                          .segments = {{"A", {1, 1}, {3, 1}}},

@@ -1,5 +1,7 @@
 #include "chapters/ch03_bsp_trees/figures/recorded_walk.hpp"
 
+#include "common/program/walk_drawing.hpp"
+
 #include <algorithm>
 
 namespace space::ch03 {
@@ -10,16 +12,6 @@ struct Watcher {
     std::vector<WalkEvent> events = {};
     void observe(const WalkEvent& event) { events.push_back(event); }
 };
-
-double distance_along(const BasicRay<2>& ray, const Segment& segment) {
-    const Double2 o(ray.origin), d(ray.direction), a(segment[0]), way = Double2(segment[1]) - a;
-    const double turn = d.x * way.y - d.y * way.x;
-    if (turn == 0.0) return infinity;
-    const Double2 from = a - o;
-    const double t = (from.x * way.y - from.y * way.x) / turn,
-                 s = (from.x * d.y - from.y * d.x) / turn;
-    return t >= 0.0 && s >= 0.0 && s <= 1.0 ? t : double{infinity};
-}
 
 }  // namespace
 

@@ -38,17 +38,6 @@ struct WalkWatcher {
     void observe(const KdVisit& event) { visits.push_back({event, {}, nearest}); }
 };
 
-/// The ray's t on a segment, in double; infinity where it misses.
-double distance_along(const Ray2& ray, const Segment& segment) {
-    const Double2 o(ray.origin), d(ray.direction), a(segment.a), way = Double2(segment.b) - a;
-    const double turn = d.x * way.y - d.y * way.x;
-    if (turn == 0.0) return infinity;
-    const Double2 from = a - o;
-    const double t = (from.x * way.y - from.y * way.x) / turn,
-                 s = (from.x * d.y - from.y * d.x) / turn;
-    return t >= 0.0 && s >= 0.0 && s <= 1.0 ? t : double{infinity};
-}
-
 }  // namespace
 
 const Turn& Story::turn_of(std::uint32_t node) const {
