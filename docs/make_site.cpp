@@ -47,7 +47,7 @@ void run_doxygen(const docs::Places& places, const fs::path& site) {
             "LAYOUT_FILE = \"{0}/layout.xml\"\n"
             "STRIP_FROM_PATH = \"{0}/texts\" \"{2}\"\nEXAMPLE_PATH += \"{0}\"\n"
             "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
-            work.string(), site.string(), BOOK_ROOT);
+            work.string(), site.string(), book_root().string());
     // Each text by its name: patterns, which could leave out the texts as they were written, fail
     // in a folder with an umlaut.
     std::set<fs::path> texts;
@@ -66,9 +66,9 @@ void run_doxygen(const docs::Places& places, const fs::path& site) {
 }
 
 int make_site(int argc, char** argv) {
-    docs::Places places{.root = BOOK_ROOT,
+    docs::Places places{.root = book_root(),
                         .configured = BOOK_CONFIGURED,
-                        .runs = fs::path(BOOK_ROOT) / "build/book",
+                        .runs = book_root() / "build/book",
                         .pages = {}};
     fs::path site = places.configured / "site";
     CLI::App app("Makes the book as a web site that opens from a local file.", "make_site");

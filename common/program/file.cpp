@@ -128,4 +128,8 @@ void check_writable(const std::filesystem::path& link) {
     const Part part(file);
 }
 
+std::filesystem::path book_root() {
+    return BOOK_ROOT;
+}
+
 }  // namespace space

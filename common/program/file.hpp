@@ -20,4 +20,7 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 /// write_file would
 void check_writable(const std::filesystem::path& file);
 
+/// The book's folder, whose sources this program was compiled from.
+std::filesystem::path book_root();
+
 }  // namespace space

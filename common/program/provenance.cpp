@@ -122,7 +122,7 @@ Provenance provenance(const std::string& chapter, const Options& options) {
             .mode = mode,
             .machine = machine_description(),
             .date = today(),
-            .sources = source_fingerprints(BOOK_ROOT, chapter)};
+            .sources = source_fingerprints(book_root(), chapter)};
 }
 
 void to_json(nlohmann::ordered_json& json, const Provenance& run) {

@@ -110,7 +110,7 @@ TEST_CASE("a results file that is no JSON, or lacks a field, is one line that na
 }
 
 TEST_CASE("the ledger holds every claim of the sources once, each with a chapter of the book") {
-    const std::filesystem::path root = BOOK_ROOT;
+    const std::filesystem::path root = book_root();
     const auto chapters = read_chapters(root);
     CHECK(chapters.size() == 12);
     std::set<std::string> expected, found;

@@ -179,7 +179,7 @@ TEST_CASE("figures are numbered in the order in which the text shows them") {
           "Figure 3.3 is shown where Figure 3.2 is due");
     CHECK(figure_order_fault(12, "\\fig_12_02") == "Figure 12.2 is shown where Figure 12.1 is due");
 
-    const std::filesystem::path root = BOOK_ROOT;
+    const std::filesystem::path root = book_root();
     for (const Chapter& chapter : read_chapters(root)) {
         if (!exists(root / "chapters" / chapter.folder / "chapter.dox")) continue;
         std::string text;
