@@ -18,8 +18,7 @@ class Text {
   public:
     /// A file by its path from the root.
     explicit Text(const std::string& file)
-        : text_(std::regex_replace(read_file(book_root() / file),
-                                   std::regex(R"(\s+)"), " ")) {}
+        : text_(std::regex_replace(read_file(book_root() / file), std::regex(R"(\s+)"), " ")) {}
     void check_says(const std::string& words) const {
         INFO(words);
         CHECK(text_.find(words) != std::string::npos);
