@@ -109,11 +109,11 @@ def wait(script, seconds=20):
         return False
 
 
-def window(width, mode="light"):
+def window(width, mode="light", media=""):
     height = 844 if width < 500 else 900
     chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                              dict(width=width, height=height, deviceScaleFactor=1, mobile=width < 500))
-    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(features=[dict(name="prefers-color-scheme", value=mode)]))
+    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(media=media, features=[dict(name="prefers-color-scheme", value=mode)]))
 
 
 def open_page(name):
@@ -180,19 +180,54 @@ pale = """
     }
     return {measured, found: [...found].map(([colours, what]) => what + ": " + colours).slice(0, 5)};"""
 
+printed = """
+    const shown = (selector) => [...document.querySelectorAll(selector)].filter((e) => e.getClientRects().length).length;
+    return {mode: document.documentElement.className.match(/(light|dark)-mode/)[0], paper: getComputedStyle(document.body).backgroundColor,
+            pressed: shown("#top *, #side-nav *, .toc, .step-bar, doxygen-awesome-fragment-copy-button"),
+            hidden: [...document.querySelectorAll("ol.steps li")].filter((e) => getComputedStyle(e).visibility !== "visible").length,
+            scrolled: [...document.querySelectorAll(".fragment, .scroll, .formulaDsp, .line")].filter(
+                (e) => /auto|scroll/.test(getComputedStyle(e).overflowX)).length};"""
+
 samples = [name for name in pages if re.match(r"(struct|class)", name) and "-members" not in name][:2] + \
           [name for name in ("annotated.html", "files.html") if name in pages]
 formulas = drawings = texts = 0
+
+
+def look_at_page(name, width, mode):
+    global texts
+    for wide in run(sticking_out) if name in book else ():
+        fault(name, f"at {width} px sticks out: {wide}")
+    contrasts = run(pale)
+    texts += contrasts["measured"]
+    for text in contrasts["found"]:
+        fault(name, f"in {mode} mode is hard to read: {text}")
+
+
+def look_at_paper(name):
+    """From a dark page: light colours; nothing to press, nothing that scrolls, every sentence of the steps."""
+    window(1280, "dark", "print")
+    if not wait("document.documentElement.classList.contains('light-mode')", 5):
+        fault(name, "is printed dark")
+    on_paper = run(printed)
+    if on_paper != dict(mode="light-mode", paper="rgb(255, 255, 255)", pressed=0, hidden=0, scrolled=0):
+        fault(name, f"on paper: {on_paper}")
+    for text in run(pale)["found"]:
+        fault(name, f"on paper is hard to read: {text}")
+    window(1280, "dark")
+    if not wait("document.documentElement.classList.contains('dark-mode')", 5):
+        fault(name, "is not dark again after printing")
+
+
 for name in book + samples:
-    for width, mode in ((1280, "light"), (390, "dark")):
-        window(width, mode)
-        open_page(name)
-        for wide in run(sticking_out) if name in book else ():
-            fault(name, f"at {width} px sticks out: {wide}")
-        contrasts = run(pale)
-        texts += contrasts["measured"]
-        for text in contrasts["found"]:
-            fault(name, f"in {mode} mode is hard to read: {text}")
+    window(390, "dark")
+    open_page(name)
+    look_at_page(name, 390, "dark")
+    if name in book and name.startswith("ch"):
+        look_at_paper(name)
+    window(1280, "light")  # the page that stands follows, as it does on a desk
+    if not wait("document.documentElement.classList.contains('light-mode')", 5):
+        fault(name, "does not follow a system that turns light")
+    look_at_page(name, 1280, "light")
     for raw in run(raw_formulas):
         fault(name, f"a formula is left raw: {raw}")
     for image in run("return [...document.images].filter(i => !i.complete || !i.naturalWidth).map(i => i.src)"):
@@ -252,39 +287,23 @@ for width in (390, 1280):
         fault("menu", f"without scripts it has {names}")
 chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
 
-# On paper: light colours from a dark page, too; nothing to press, nothing that scrolls, every sentence of the steps.
-printed = """
-    const shown = (selector) => [...document.querySelectorAll(selector)].filter((e) => e.getClientRects().length).length;
-    return {mode: document.documentElement.className.match(/(light|dark)-mode/)[0], paper: getComputedStyle(document.body).backgroundColor,
-            pressed: shown("#top *, #side-nav *, .toc, .step-bar, doxygen-awesome-fragment-copy-button"),
-            hidden: [...document.querySelectorAll("ol.steps li")].filter((e) => getComputedStyle(e).visibility !== "visible").length,
-            scrolled: [...document.querySelectorAll(".fragment, .scroll, .formulaDsp, .line")].filter(
-                (e) => /auto|scroll/.test(getComputedStyle(e).overflowX)).length};"""
-for name in (name for name in book if name.startswith("ch")):
-    window(1280, "dark")
-    open_page(name)
-    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(media="print", features=[dict(name="prefers-color-scheme", value="dark")]))
-    if not wait("document.documentElement.classList.contains('light-mode')", 5):
-        fault(name, "is printed dark")
-    on_paper = run(printed)
-    if on_paper != dict(mode="light-mode", paper="rgb(255, 255, 255)", pressed=0, hidden=0, scrolled=0):
-        fault(name, f"on paper: {on_paper}")
-    for text in run(pale)["found"]:
-        fault(name, f"on paper is hard to read: {text}")
-    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(media="", features=[dict(name="prefers-color-scheme", value="dark")]))
-    if not wait("document.documentElement.classList.contains('dark-mode')", 5):
-        fault(name, "is not dark again after printing")
-
 # Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
 # out; without scripts, the last step's drawing stands and all sentences. Keys move the drawing in view, and no other.
-state = """
+walk = """
     const list = document.querySelectorAll("ol.steps")[NUMBER], bar = list.previousElementSibling;
     const drawing = bar.previousElementSibling, seen = (element) => getComputedStyle(element).visibility === "visible";
-    return {tells: [...list.children].filter(seen).map((item) => item.textContent),
+    const sticking = () => {STICKING_OUT};
+    const look = () => ({tells: [...list.children].filter(seen).map((item) => item.textContent),
             groups: [...drawing.querySelectorAll("[data-first]")].map((group) => group.getAttribute("display") !== "none"),
             buttons: [...bar.querySelectorAll("button")].map((button) => !button.disabled),
             count: bar.querySelector("output").textContent,
-            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top};"""
+            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top, wide: sticking()});
+    const [first, back, forth, last] = bar.querySelectorAll("button");
+    const press = (button) => { button.click(); return look(); }, seconds = [...list.children].slice(1);
+    return {start: look(), next: seconds.map(() => press(forth)), back: seconds.map(() => press(back)).reverse(),
+            last: press(last), first: press(first)};""".replace("STICKING_OUT", sticking_out)
+state = "const list = document.querySelectorAll('ol.steps')[NUMBER], bar = list.previousElementSibling;" \
+        "return [bar.querySelector('output').textContent, [...list.children].findIndex((e) => getComputedStyle(e).visibility === 'visible')];"
 static = """
     const list = document.querySelectorAll("ol.steps")[NUMBER], drawing = list.previousElementSibling;
     return {tells: list.children.length, bar: !!document.querySelector(".step-bar"),
@@ -304,8 +323,7 @@ def walk_steps(name, number, groups, tells):
     if last < 1 or any(first > last or (end is not None and end < first) for first, end in groups):
         fault(name, f"a drawing's steps are none: {groups}")
 
-    def look(step, how):
-        now = script(state)
+    def look(now, step, how):
         expected = [first <= step and (end is None or step <= end) for first, end in groups]
         if now["groups"] != expected:
             fault(name, f"step {step} by {how} shows other groups than its own")
@@ -313,32 +331,31 @@ def walk_steps(name, number, groups, tells):
             fault(name, f"step {step} by {how} tells {now['tells']}")
         if now["buttons"] != [step > 0, step > 0, step < last, step < last] or now["count"] != f"{step + 1} of {last + 1}":
             fault(name, f"step {step} by {how}: its buttons are {now['buttons']}, {now['count']}")
-        return now["height"]
+        for wide in now["wide"]:
+            fault(name, f"at {width} px, step {step}, sticks out: {wide}")
 
     for width, mode in ((1280, "light"), (390, "dark")):
         window(width, mode)
         open_page(name)
-        bar = chromium.find_elements(By.CSS_SELECTOR, ".step-bar")[number]
-        first, back, forth, end = bar.find_elements(By.TAG_NAME, "button")
-        places = {look(0, "loading")}
+        walked = script(walk)
+        look(walked["start"], 0, "loading")
         for step in range(1, last + 1):
-            forth.click()
-            places.add(look(step, "Next"))
+            look(walked["next"][step - 1], step, "Next")
+            look(walked["back"][step - 1], step - 1, "Back")
             steps_walked += 1
-            for wide in run(sticking_out):
-                fault(name, f"at {width} px, step {step}, sticks out: {wide}")
-        for step in range(last - 1, -1, -1):
-            back.click()
-            look(step, "Back")
-        end.click()
-        look(last, "Last")
-        first.click()
-        look(0, "First")
+        look(walked["last"], last, "Last")
+        look(walked["first"], 0, "First")
+        places = [now["height"] for now in [walked["start"], *walked["next"]]]
         script(to_the_middle)
+        # By hand: the button Next, then keys.
+        chromium.find_elements(By.CSS_SELECTOR, ".step-bar")[number].find_elements(By.TAG_NAME, "button")[2].click()
+        run("document.activeElement.blur()")
         body = chromium.find_element(By.TAG_NAME, "body")
-        for key, step in ((Keys.ARROW_RIGHT, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
-            body.send_keys(key)
-            look(step, "arrow key")
+        for key, step in ((None, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
+            if key:
+                body.send_keys(key)
+            if script(state) != [f"{step + 1} of {last + 1}", step]:
+                fault(name, f"a hand's press shows {script(state)}, not step {step}")
         counts = run("return [...document.querySelectorAll('.step-bar output')].map((output) => output.textContent[0])")
         if counts != ["2" if i == number else "1" for i in range(len(counts))]:
             fault(name, f"keys move another drawing than number {number}, which is in the middle: {counts}")
