@@ -4,6 +4,7 @@
 
 #include "common/geometry.hpp"
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,31 @@ struct Hit {
 inline bool nearer(const Hit& hit, const Hit& other) {
     return hit.t < other.t || (hit.t == other.t && hit.triangle < other.triangle);
 }
+
+// [found]
+/// The nearest of the hits that a search comes to: `search(found)` calls found(hit) for each, which
+/// returns the t beyond which nothing matters any more.
+template <class Search>
+std::optional<Hit> nearest_found(const Search& search) {
+    std::optional<Hit> nearest;
+    search([&](const Hit& hit) {
+        if (!nearest || nearer(hit, *nearest)) nearest = hit;
+        // A hit half a place farther may round to the same t and have the smaller index.
+        return double{std::nextafter(nearest->t, infinity)};
+    });
+    return nearest;
+}
+/// Whether it comes to any.
+template <class Search>
+bool is_any_found(const Search& search) {
+    bool is_found = false;
+    search([&](const Hit&) {
+        is_found = true;
+        return std::nan("");  // nothing is nearer than this, and nothing matters any more
+    });
+    return is_found;
+}
+// [found]
 
 /// Counting is a policy: a query with NoCounts compiles to the same code as one that never counts.
 struct NoCounts {

@@ -139,23 +139,12 @@ class Bsp {
 
     template <class Counts>
     std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
-        std::optional<Hit> nearest;
-        traverse(ray, counts, [&](const Hit& hit) {
-            if (!nearest || nearer(hit, *nearest)) nearest = hit;
-            // A hit half a place farther may round to the same t and have the smaller index.
-            return double{std::nextafter(nearest->t, infinity)};
-        });
-        return nearest;
+        return nearest_found([&](const auto& found) { traverse(ray, counts, found); });
     }
 
     template <class Counts>
     bool any_hit(const Ray& ray, Counts& counts) const {
-        bool found = false;
-        traverse(ray, counts, [&](const Hit&) {
-            found = true;
-            return std::nan("");  // nothing is nearer than this, and nothing matters any more
-        });
-        return found;
+        return is_any_found([&](const auto& found) { traverse(ray, counts, found); });
     }
 
     TreeShape shape() const {

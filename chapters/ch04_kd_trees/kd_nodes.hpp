@@ -43,12 +43,18 @@ class KdNode {
     std::uint32_t first() const { return high_; }    ///< of a leaf's references
     std::uint32_t count() const { return low_ >> 3; }
 
+    /// All of it as one number, whose lowest bits are those of the axis.
+    std::uint64_t bits() const { return std::uint64_t{high_} << 32 | low_; }
+    static KdNode of_bits(std::uint64_t bits) {
+        return {static_cast<std::uint32_t>(bits >> 32), static_cast<std::uint32_t>(bits)};
+    }
+
     static constexpr std::uint32_t largest = (1u << 29) - 1;  ///< index or count
 
   private:
-    KdNode(std::uint32_t high, std::uint32_t low) : high_(high), low_(low) {}
+    KdNode(std::uint32_t high, std::uint32_t low) : low_(low), high_(high) {}
 
-    std::uint32_t high_, low_;
+    std::uint32_t low_, high_;
 };
 static_assert(sizeof(KdNode) == 8);
 // [kd_node]
@@ -74,6 +80,9 @@ struct KdNodes {
     std::vector<std::uint32_t> references;  ///< polygons, by index
     std::vector<Range> kept;  ///< by node: what inner nodes keep; empty where none keeps any
     std::size_t depth = 0;    ///< edges from the root to the deepest leaf
+
+    bool empty() const { return nodes.empty(); }
+    KdNode node(std::uint32_t index) const { return nodes[index]; }
 
     /// What a leaf names, or an inner node keeps.
     Range own_range(std::uint32_t index) const {

@@ -6,7 +6,11 @@
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch04_kd_trees/kd_builder.hpp"
+#include "chapters/ch04_kd_trees/kd_config.hpp"
+#include "chapters/ch04_kd_trees/kd_nodes.hpp"
 #include "common/accelerator.hpp"
+#include "common/geometry.hpp"
+#include "common/observer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -94,11 +98,11 @@ struct KdVisit {
 /// Walks the cells along the ray. Calls own(node) for every leaf, and for every inner node that
 /// keeps polygons; it returns the t beyond which nothing matters any more (NaN: nothing at all). A
 /// hit beyond the cell in hand ends nothing: the cells between begin before it. The observer is
-/// told every node (KdVisit).
-template <int D, class Counts, class Own, class Observer = NoObserver>
-void walk_cells(const KdNodes<D>& tree, const BasicRay<D>& ray, Counts& counts, const Own& own,
+/// told every node (KdVisit). Nodes is KdNodes, or what has its `box`, `empty()` and `node(index)`.
+template <class Nodes, int D, class Counts, class Own, class Observer = NoObserver>
+void walk_cells(const Nodes& tree, const BasicRay<D>& ray, Counts& counts, const Own& own,
                 Observer&& observer = {}) {
-    if (!is_valid(ray) || tree.nodes.empty()) return;
+    if (!is_valid(ray) || tree.empty()) return;
     const KdRay<D> prepared(ray);
     const std::optional<RayPart> in_box = part_in(tree.box, ray, prepared);
     if (!in_box) return;
@@ -108,7 +112,7 @@ void walk_cells(const KdNodes<D>& tree, const BasicRay<D>& ray, Counts& counts, 
     double limit = infinity;
     for (std::uint32_t index = 0;;) {
         for (;;) {
-            const KdNode node = tree.nodes[index];
+            const KdNode node = tree.node(index);
             counts.visit_node();
             observer.observe(KdVisit{index, part});
             if (node.is_leaf() || node.keeps()) {
@@ -177,23 +181,12 @@ class KdTree {
 
     template <class Counts>
     std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
-        std::optional<Hit> nearest;
-        search(ray, counts, [&](const Hit& hit) {
-            if (!nearest || nearer(hit, *nearest)) nearest = hit;
-            // A hit half a place farther may round to the same t and have the smaller index.
-            return double{std::nextafter(nearest->t, infinity)};
-        });
-        return nearest;
+        return nearest_found([&](const auto& found) { search(ray, counts, found); });
     }
 
     template <class Counts>
     bool any_hit(const Ray& ray, Counts& counts) const {
-        bool found = false;
-        search(ray, counts, [&](const Hit&) {
-            found = true;
-            return std::nan("");  // nothing is nearer than this, and nothing matters any more
-        });
-        return found;
+        return is_any_found([&](const auto& found) { search(ray, counts, found); });
     }
 
     TreeShape shape() const {
