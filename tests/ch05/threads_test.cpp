@@ -1,0 +1,309 @@
+// Many threads in one lazy tree: with delays wherever one thread could see what another has begun,
+// and with errors while others wait.
+#include "chapters/ch05_lazy_kd_trees/lazy_kd_tree.hpp"
+#include "common/limit_error.hpp"
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+#include "tests/ch05/same_tree.hpp"
+#include "tests/ch05/watchdog.hpp"
+#include "tests/suite/adversarial_scenes.hpp"
+#include "tests/suite/test_rays.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <barrier>
+#include <chrono>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+namespace space {
+namespace {
+
+using Answers = std::vector<std::optional<Hit>>;
+
+/// The rays that every thread asks, in an order of its own, and the eager tree's answers.
+struct Questions {
+    std::vector<Triangle> triangles;
+    std::vector<Ray> rays;
+    KdTree<> eager;
+    Answers answers;
+
+    Questions(std::vector<Triangle> scene, int count)
+        : triangles(std::move(scene)), eager(KdTree<>::build(triangles)) {
+        RayMaker maker(triangles, 3);
+        for (int i = 0; i < count; ++i) {
+            rays.push_back((i % 2 == 0 ? maker.random() : maker.at_edge()).ray);
+            answers.push_back(closest_hit(eager, rays.back()));
+        }
+    }
+};
+
+/// What happened in a tree, told by all of its threads.
+struct Happened {
+    explicit Happened(std::size_t nodes) : entered(nodes), stands(nodes) {}
+    std::vector<std::atomic<int>> entered, stands;  ///< by node
+    std::atomic<int> waited{0};
+};
+
+/// Counts what happens, and now and then takes its time over it.
+struct Delays : NoObserver {
+    Happened* happened = nullptr;
+    std::uint64_t seed = 0;
+
+    using NoObserver::observe;
+    void observe(const LazyKdEvent::Entered& event) const {
+        ++happened->entered[event.node];
+        delay(event.node, 1);
+    }
+    void observe(const LazyKdEvent::Waits& event) const {
+        ++happened->waited;
+        delay(event.node, 2);
+    }
+    void observe(const LazyKdEvent::Stands& event) const {
+        ++happened->stands[event.node];
+        delay(event.node, 3);
+    }
+    void observe(const KdSplitter<3>::Chosen& event) const { delay(event.node, 4); }
+
+  private:
+    void delay(std::uint32_t node, std::uint64_t place) const {
+        Pcg32 random(seed * 1000 + node, place);
+        switch (random.below(12)) {
+            case 0:
+                std::this_thread::sleep_for(std::chrono::microseconds(random.below(60)));
+                break;
+            case 1:
+                std::this_thread::yield();
+                break;
+            default:
+                break;
+        }
+    }
+};
+
+/// Calls body(thread) on several threads that start as one.
+template <class Body>
+void on_threads(unsigned threads, const Body& body) {
+    std::barrier start(threads);
+    std::vector<std::jthread> all;
+    for (unsigned thread = 0; thread < threads; ++thread)
+        all.emplace_back([&, thread] {
+            start.arrive_and_wait();
+            body(thread);
+        });
+}
+
+std::size_t wrong_answers(const auto& tree, const Questions& questions, unsigned thread) {
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < questions.rays.size(); ++i) {
+        // Two by two they come to the same nodes at the same time.
+        const std::size_t k = (i + thread / 2 * 7) % questions.rays.size();
+        wrong += closest_hit(tree, questions.rays[k]) != questions.answers[k];
+    }
+    return wrong;
+}
+
+}  // namespace
+
+TEST_CASE("2 to 8 threads with delays: the same tree and hits each time, one thread makes a node") {
+    const int runs = sized(1'000, 100);
+    const Watchdog watchdog(300);
+    const Questions questions(scenes::soup(40, 0.3f, 11), 16);
+    int waited = 0;
+    for (int run = 0; run < runs; ++run) {
+        CAPTURE(run);
+        const unsigned threads = 2 + unsigned(run) % 7;
+        Happened happened(4096);
+        Delays delays;
+        delays.happened = &happened;
+        delays.seed = std::uint64_t(run);
+        const auto tree =
+            WatchedLazyKdTree<FilteredExact, Delays>::build(questions.triangles, {}, delays);
+        std::atomic<std::size_t> wrong{0};
+        on_threads(threads,
+                   [&](unsigned thread) { wrong += wrong_answers(tree, questions, thread); });
+        REQUIRE(wrong == 0);
+        if (run % 2 == 0) on_threads(threads, [&](unsigned) { tree.build_all(); });
+        const SameTree same(questions.eager.nodes(), tree.nodes());
+        REQUIRE(same.fault() == "");
+        REQUIRE((run % 2 == 1 || same.waiting() == 0));
+        std::size_t entered = 0;
+        tree.nodes().for_each_cell([&](const auto& cell) {
+            const int times = cell.state == LazyKdNodes<3, Delays>::State::waiting ? 0 : 1;
+            REQUIRE(happened.entered[cell.node] == times);
+            REQUIRE(happened.stands[cell.node] == times);
+        });
+        for (const std::atomic<int>& times : happened.entered) entered += std::size_t(times);
+        REQUIRE(entered == tree.nodes().counts().standing());
+        waited += happened.waited;
+    }
+    fmt::print("  {} runs, in which threads waited {} times for another\n", runs, waited);
+    CHECK(waited > runs / 10);
+}
+
+TEST_CASE("threads make a larger tree together, without delays") {
+    const Watchdog watchdog(300);
+    const Questions questions(scenes::soup(sized(4'000u, 400u), 0.05f, 12), sized(2'000, 200));
+    for (int run = 0; run < 5; ++run) {
+        const auto tree = LazyKdTree<>::build(questions.triangles);
+        std::atomic<std::size_t> wrong{0};
+        on_threads(4, [&](unsigned thread) { wrong += wrong_answers(tree, questions, thread); });
+        CHECK(wrong == 0);
+        on_threads(4, [&](unsigned) { tree.build_all(); });
+        const SameTree same(questions.eager.nodes(), tree.nodes());
+        CHECK(same.fault() == "");
+        CHECK(same.waiting() == 0);
+    }
+}
+
+namespace {
+
+/// Whoever makes the root holds still until all others wait for it, and then fails, so many times.
+struct FailsAtRoot : NoObserver {
+    struct Shared {
+        int others;
+        std::atomic<int> waiting{0}, failures{0}, fails;
+    };
+    Shared* shared;
+
+    explicit FailsAtRoot(Shared* with) : shared(with) {}
+    using NoObserver::observe;
+    void observe(const LazyKdEvent::Waits&) const { ++shared->waiting; }
+    void observe(const KdSplitter<3>::Chosen& event) const {
+        if (event.node != 0 || shared->fails.fetch_sub(1) <= 0) return;
+        if (shared->failures++ == 0) {
+            while (shared->waiting < shared->others) std::this_thread::yield();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));  // until they sleep
+        }
+        throw std::bad_alloc();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an error while a node is made reaches every thread that needs it, and none hangs") {
+    const Watchdog watchdog(60);
+    const Questions questions(scenes::soup(60, 0.3f, 13), 24);
+    const Ray into_box{questions.eager.nodes().box.centroid(), {1, 0, 0}};
+    for (const int threads : {2, 8}) {
+        FailsAtRoot::Shared shared{.others = threads - 1, .fails = threads};
+        const auto tree = WatchedLazyKdTree<FilteredExact, FailsAtRoot>::build(
+            questions.triangles, {}, FailsAtRoot(&shared));
+        std::atomic<int> errors{0};
+        on_threads(unsigned(threads), [&](unsigned) {
+            try {
+                closest_hit(tree, into_box);
+            } catch (const std::bad_alloc&) {
+                ++errors;
+            }
+        });
+        CHECK(errors == threads);
+        CHECK(shared.failures == threads);
+        const LazyKdCounts counts = tree.nodes().counts();
+        CHECK(counts.standing() == 0);
+        CHECK(counts.waiting == 1);
+        // With memory again, all is well.
+        CHECK(wrong_answers(tree, questions, 0) == 0);
+        tree.build_all();
+        const SameTree same(questions.eager.nodes(), tree.nodes());
+        CHECK(same.fault() == "");
+        CHECK(same.waiting() == 0);
+    }
+}
+
+TEST_CASE("where one thread fails, one of those that wait makes the node, and the others get it") {
+    const Watchdog watchdog(60);
+    const Questions questions(scenes::soup(60, 0.3f, 14), 24);
+    FailsAtRoot::Shared shared{.others = 7, .fails = 1};
+    const auto tree = WatchedLazyKdTree<FilteredExact, FailsAtRoot>::build(questions.triangles, {},
+                                                                           FailsAtRoot(&shared));
+    std::atomic<int> errors{0};
+    std::atomic<std::size_t> wrong{0};
+    on_threads(8, [&](unsigned thread) {
+        try {
+            wrong += wrong_answers(tree, questions, thread);
+        } catch (const std::bad_alloc&) {
+            ++errors;
+        }
+    });
+    CHECK(errors == 1);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("an error at any step of any node leaves the node as it was") {
+    /// Fails at the n-th event of the splitter.
+    struct FailsAt : NoObserver {
+        int* left;
+        explicit FailsAt(int* events) : left(events) {}
+        using NoObserver::observe;
+        void count() const {
+            if ((*left)-- == 0) throw std::bad_alloc();
+        }
+        void observe(const LazyKdEvent::Entered&) const { count(); }
+        void observe(const KdSplitter<3>::Chosen&) const { count(); }
+        void observe(const KdSplitter<3>::Placed&) const { count(); }
+    };
+    for (const auto& triangles : {scenes::soup(20, 0.5f, 15), scenes::ball(1)}) {
+        const auto eager = KdBuilder<3>::build(triangles);
+        int failures = 0, left = 0;
+        const LazyKdNodes<3, FailsAt> lazy(triangles, {}, FailsAt(&left));
+        for (int fails_at = 0;; ++fails_at) {
+            left = fails_at;
+            try {
+                lazy.build_all();
+                break;
+            } catch (const std::bad_alloc&) {
+                ++failures;
+            }
+        }
+        CHECK(failures > 20);
+        const SameTree same(eager, lazy);
+        CHECK(same.fault() == "");
+        CHECK(same.waiting() == 0);
+    }
+}
+
+TEST_CASE("the limit of references holds as in the eager tree, and what was made stays good") {
+    const Watchdog watchdog(60);
+    const Questions questions(scenes::soup(200, 0.3f, 16), 50);
+    const std::size_t needed = [&] {  // counted with lost parts
+        std::size_t low = questions.triangles.size(), high = 100'000;
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            try {
+                KdBuilder<3>::build(questions.triangles, {.max_references = middle});
+                high = middle;
+            } catch (const LimitError&) {
+                low = middle + 1;
+            }
+        }
+        return low;
+    }();
+    CHECK_THROWS_AS(LazyKdTree<>::build(questions.triangles, {.max_references = 199}), LimitError);
+    const auto enough = LazyKdTree<>::build(questions.triangles, {.max_references = needed});
+    CHECK_NOTHROW(enough.build_all());
+    const auto scarce = LazyKdTree<>::build(questions.triangles, {.max_references = needed - 1});
+    std::atomic<int> errors{0};
+    on_threads(4, [&](unsigned) {
+        for (int time = 0; time < 2; ++time) try {
+                scarce.build_all();
+            } catch (const LimitError&) {
+                ++errors;
+            }
+    });
+    CHECK(errors == 8);
+    const SameTree same(questions.eager.nodes(), scarce.nodes());
+    CHECK(same.fault() == "");
+    CHECK(same.waiting() > 0);
+    for (std::size_t i = 0; i < questions.rays.size(); ++i) try {
+            CHECK(closest_hit(scarce, questions.rays[i]) == questions.answers[i]);
+        } catch (const LimitError&) {
+        }
+}
+
+}  // namespace space
