@@ -28,36 +28,30 @@ class KdBuilder {
     using Chosen = typename Splitter::Chosen;
     using Placed = typename Splitter::Placed;
     using Half = typename Splitter::Half;
+    using Task = typename Splitter::Task;
 
     /// @throws LimitError where leaves and nodes would name more than config.max_references
     template <class Observer = NoObserver>
     static KdNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {},
                             Observer&& observer = {}) {
-        KdBuilder builder(polygons, config);
-        if (!polygons.empty()) builder.run(observer);
-        return std::move(builder.tree_);
+        if (polygons.empty()) return {};
+        const Splitter splitter(polygons, config);
+        return KdBuilder(splitter, config).run(splitter.root(), observer);
     }
 
-  private:
-    using Task = typename Splitter::Task;
-
-    /// A task, and the node that it is to become.
-    struct Waiting {
-        std::uint32_t node;
-        Task task;
-    };
-
-    KdBuilder(std::span<const Simplex<D>> polygons, const Config& config)
-        : config_(config), splitter_(polygons, config) {}
+    /// Makes one tree; the splitter must outlive it.
+    KdBuilder(const Splitter& splitter, const Config& config)
+        : config_(config), splitter_(splitter) {}
 
     // [run]
+    /// All of the tree below a task.
     template <class Observer>
-    void run(Observer& observer) {
-        std::vector<Waiting> waiting;
-        waiting.push_back({0, splitter_.root()});
-        tree_.box = waiting[0].task.cell;
-        count_references(waiting[0].task.references.size());
+    KdNodes<D> run(Task root, Observer& observer) {
+        tree_.box = root.cell;
         tree_.nodes.assign(2, KdNode::leaf(0, 0));  // the gap makes later pairs even
+        count_references(root.references.size());
+        std::vector<Waiting> waiting;
+        waiting.push_back({0, std::move(root)});
         while (!waiting.empty()) {
             auto [node, task] = std::move(waiting.back());
             waiting.pop_back();
@@ -73,8 +67,18 @@ class KdBuilder {
             waiting.push_back({below + 1, std::move(children.above)});
             waiting.push_back({below, std::move(children.below)});
         }
+        return std::move(tree_);
     }
     // [run]
+    /// Of all leaves and inner nodes, and parts that were lost when they were cut.
+    std::size_t references() const { return references_; }
+
+  private:
+    /// A task, and the node that it is to become.
+    struct Waiting {
+        std::uint32_t node;
+        Task task;
+    };
 
     template <class Observer>
     std::optional<KdSplit> choose(const Task& task, Observer& observer) {
@@ -118,9 +122,9 @@ class KdBuilder {
     }
 
     Config config_;
-    Splitter splitter_;
+    const Splitter& splitter_;
     KdNodes<D> tree_;
-    std::size_t references_ = 0;  ///< in leaves, nodes and waiting tasks, but for lost parts
+    std::size_t references_ = 0;  ///< in leaves, nodes and waiting tasks, and lost parts
     std::size_t next_planned_ = 0;
 };
 

@@ -79,6 +79,9 @@ class KdSplitter {
     /// All polygons, in the box of them all.
     Task root() const {
         Task task;
+        task.references.reserve(polygons_.size());
+        if (sweeps())
+            for (auto& list : task.events) list.reserve(2 * polygons_.size());
         for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
             BasicAabb<D> box;
             for (int corner = 0; corner < D; ++corner) box.extend(polygons_[i][corner]);
@@ -86,7 +89,7 @@ class KdSplitter {
             task.cell.extend(box);
             if (sweeps()) add_events<D>(task.events, box, i);
         }
-        for (auto& list : task.events) std::sort(list.begin(), list.end());
+        for (auto& list : task.events) sort_events(list);
         return task;
     }
 

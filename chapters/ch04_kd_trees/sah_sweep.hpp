@@ -9,9 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace space {
@@ -46,6 +49,14 @@ class SplitEvent {
                (position_ == other.position_ && kind() < other.kind());
     }
 
+    /// A whole number, which grows as operator< has it: a float's bits do, but for the sign. -0 is
+    /// 0.
+    std::uint64_t key() const {
+        const auto bits = std::bit_cast<std::uint32_t>(position_ + 0.0f);
+        const std::uint32_t in_order = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+        return std::uint64_t{in_order} << 2 | kind();
+    }
+
   private:
     float position_ = 0.0f;
     std::uint32_t box_and_kind_ = 0;
@@ -68,6 +79,25 @@ void add_events(SplitEvents<D>& events, const BasicAabb<D>& box, std::uint32_t i
         }
     }
 }
+
+// [sort_events]
+/// In the order of operator<, by digits (radix sort): the lowest 11 bits of position and kind
+/// first, then the next 11, then 12. Of a million events that is several times as fast as comparing
+/// them.
+inline void sort_events(std::vector<SplitEvent>& events) {
+    std::vector<SplitEvent> sorted(events.size());
+    for (const auto& [shift, bits] : {std::pair{0, 11}, {11, 11}, {22, 12}}) {
+        const auto digit = [shift = shift, mask = (1u << bits) - 1](const SplitEvent& event) {
+            return (event.key() >> shift) & mask;
+        };
+        std::vector<std::uint32_t> place((std::size_t{1} << bits) + 1);
+        for (const SplitEvent& event : events) ++place[digit(event) + 1];
+        std::partial_sum(place.begin(), place.end(), place.begin());
+        for (const SplitEvent& event : events) sorted[place[digit(event)]++] = event;
+        events.swap(sorted);
+    }
+}
+// [sort_events]
 
 /// A plane that the sweep has tried, as an event for an observer too.
 struct SahCandidate {

@@ -2,6 +2,7 @@
 /// An array that grows while other threads read it: nothing in it ever moves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -10,56 +11,70 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <type_traits>
 
 namespace space {
 
-/// A row of chunks, each twice as long as the one before it, and a directory of them. Threads add
-/// at its end; a thread may use what it has added, and whatever another has told it of.
+/// A row of chunks. The first is to be long enough for nearly always: memory that is only reserved
+/// costs nothing until it is written. Each later one is as long as all before it, so that an index
+/// tells by its highest bit in which it is. Threads add at the end; a thread may use what it has
+/// added, and what another has told it of.
 template <class T>
 class Chunks {
+    static_assert(std::is_trivial_v<T>, "elements begin as whatever memory holds");
+
   public:
-    Chunks() = default;
-    Chunks(const Chunks&) = delete;
-    Chunks& operator=(const Chunks&) = delete;
-    ~Chunks() {
-        for (auto& chunk : directory_) delete[] chunk.load();
-    }
+    explicit Chunks(std::size_t expected)
+        : first_length_(std::bit_ceil(static_cast<std::uint32_t>(
+              std::clamp<std::size_t>(expected, 64, std::size_t{1} << 31)))),
+          first_(std::make_unique_for_overwrite<T[]>(first_length_)) {}
 
     // [at]
     T& operator[](std::uint32_t index) const {
-        const std::uint32_t place = index + first_length;
-        return directory_[std::bit_width(place)].load(
-            std::memory_order_acquire)[place ^ std::bit_floor(place)];
+        if (index < first_length_) [[likely]]
+            return first_[index];
+        return later_[std::bit_width(index)].load(
+            std::memory_order_acquire)[index ^ std::bit_floor(index)];
     }
     // [at]
 
     /// The index of the first of `count` new elements, which lie side by side in one chunk.
     /// @throws std::bad_alloc where there is no memory, or would be more than `most` elements
-    std::uint32_t add(std::uint32_t count, std::uint32_t most) {
-        std::uint32_t end = end_.load(std::memory_order_relaxed), first;
+    std::uint32_t add(std::size_t count, std::uint32_t most) {
+        std::uint32_t end = end_.load(std::memory_order_relaxed);
+        std::uint64_t first;
         do {
-            std::uint64_t place = std::uint64_t{end} + first_length;
-            std::uint64_t next = 2 * std::bit_floor(place);  // the start of the next chunk
-            while (place + count > next) place = next, next *= 2;
-            if (place + count > std::uint64_t{most} + first_length) throw std::bad_alloc();
-            first = static_cast<std::uint32_t>(place - first_length);
-        } while (!end_.compare_exchange_weak(end, first + count, std::memory_order_relaxed));
-        if (count > 0) make_chunk_of(first + first_length);
-        return first;
+            first = end;
+            while (first + count > end_of_chunk(first)) first = end_of_chunk(first);
+            if (first + count > most) throw std::bad_alloc();
+        } while (!end_.compare_exchange_weak(end, static_cast<std::uint32_t>(first + count),
+                                             std::memory_order_relaxed));
+        if (count > 0 && first >= first_length_) make_later(static_cast<std::uint32_t>(first));
+        return static_cast<std::uint32_t>(first);
+    }
+
+    Chunks(const Chunks&) = delete;
+    Chunks& operator=(const Chunks&) = delete;
+    ~Chunks() {
+        for (auto& chunk : later_) delete[] chunk.load();
     }
 
   private:
-    static constexpr std::uint32_t first_length = 64;
-
-    /// The one lock: each chunk is made once.
-    void make_chunk_of(std::uint32_t place) {
-        std::atomic<T*>& chunk = directory_[std::bit_width(place)];
-        if (chunk.load(std::memory_order_acquire)) return;
-        const std::lock_guard guard(growing_);
-        if (!chunk.load()) chunk.store(new T[std::bit_floor(place)], std::memory_order_release);
+    std::uint64_t end_of_chunk(std::uint64_t index) const {
+        return index < first_length_ ? first_length_ : 2 * std::bit_floor(index);
     }
 
-    std::array<std::atomic<T*>, 33> directory_ = {};  ///< by the number of bits of a place
+    /// The one lock: each chunk is made once.
+    void make_later(std::uint32_t index) {
+        std::atomic<T*>& chunk = later_[std::bit_width(index)];
+        if (chunk.load(std::memory_order_acquire)) return;
+        const std::lock_guard guard(growing_);
+        if (!chunk.load()) chunk.store(new T[std::bit_floor(index)], std::memory_order_release);
+    }
+
+    std::uint32_t first_length_;
+    std::unique_ptr<T[]> first_;
+    std::array<std::atomic<T*>, 33> later_ = {};  ///< by the number of bits of an index
     std::atomic<std::uint32_t> end_{0};
     std::mutex growing_;
 };

@@ -3,6 +3,7 @@
 /// until somebody enters it. Several threads may; one makes the node, the others wait for it.
 #pragma once
 
+#include "chapters/ch04_kd_trees/kd_builder.hpp"
 #include "chapters/ch04_kd_trees/kd_config.hpp"
 #include "chapters/ch04_kd_trees/kd_nodes.hpp"
 #include "chapters/ch04_kd_trees/kd_splitter.hpp"
@@ -35,6 +36,9 @@ struct LazyKdTreeConfig {
     double max_straddling = 0.75;                  ///< of middle and median, as chapter 4 has it
     std::optional<std::size_t> max_depth = {};     ///< 8 + 1.3 log2 n unless it is given
     std::size_t max_references = KdNode::largest;  ///< limits memory
+    /// A list that is no longer than this is not worth keeping: all below its node is made when the
+    /// node is entered. 0: nothing that is not entered.
+    std::size_t at_once = 256;
     bool mailboxes = true;
 
     /// Of the tree of chapter 4 that the lazy one becomes.
@@ -51,7 +55,8 @@ struct LazyKdTreeConfig {
     }
 };
 
-/// Events of a node's making, besides those of chapter 4's step (KdSplitter).
+/// Events of a node's making, besides those of chapter 4's step (KdSplitter), which number the
+/// nodes of what is made at once from its own root on.
 struct LazyKdEvent {
     /// This thread is the first to enter the node, and makes it.
     struct Entered {
@@ -105,19 +110,21 @@ class LazyKdNodes {
     LazyKdNodes(std::span<const Simplex<D>> polygons, const Config& config, Observer observer = {})
         : box(box_of(polygons)),
           polygons_(polygons),
-          max_references_(config.max_references),
+          config_(config),
           splitter_(polygons, config.eager()),
+          words_(8 * polygons.size()),
+          references_(8 * polygons.size()),
           observer_(std::move(observer)) {
         if (empty()) return;
         count_references(polygons.size());
         words_.add(2, KdNode::largest);  // the gap makes later pairs even
-        words_[0].store(waiting_word(std::make_unique<Waiting>()));
+        word(0).store(waiting_word(std::make_unique<Waiting>()));
     }
     LazyKdNodes(const LazyKdNodes&) = delete;
     LazyKdNodes& operator=(const LazyKdNodes&) = delete;
     ~LazyKdNodes() {
         for_each_cell([&](const Cell& cell) {
-            if (cell.state == State::waiting) delete waiting_at(words_[cell.node].load());
+            if (cell.state == State::waiting) delete waiting_at(word(cell.node).load());
         });
     }
 
@@ -128,10 +135,10 @@ class LazyKdNodes {
     /// The node, which is made if it waits. A finished one costs a load and a comparison.
     /// @throws LimitError, std::bad_alloc where it can't be made; then it waits as before
     KdNode node(std::uint32_t index) const {
-        std::uint64_t word = words_[index].load(std::memory_order_acquire);
-        if (is_waiting(word)) [[unlikely]]
-            word = finished(index, word);
-        return KdNode::of_bits(word);
+        std::uint64_t bits = word(index).load(std::memory_order_acquire);
+        if (is_waiting(bits)) [[unlikely]]
+            bits = finished(index, bits);
+        return KdNode::of_bits(bits);
     }
     // [node]
 
@@ -176,6 +183,9 @@ class LazyKdNodes {
     /// lowest says that somebody makes it, and the rest is the address of what waits.
     static constexpr std::uint64_t waits = 4, is_being_made = 1;
 
+    std::atomic_ref<std::uint64_t> word(std::uint32_t index) const {
+        return std::atomic_ref(words_[index]);
+    }
     static bool is_waiting(std::uint64_t word) { return (word & waits) != 0; }
     static std::uint64_t waiting_word(std::unique_ptr<Waiting> waiting) {
         static_assert(alignof(Waiting) >= 8);
@@ -189,47 +199,51 @@ class LazyKdNodes {
     // [finished]
     /// Makes the node, or waits until it stands. Whoever makes a node waits for no other, so this
     /// comes to an end.
-    std::uint64_t finished(std::uint32_t index, std::uint64_t word) const {
-        std::atomic<std::uint64_t>& place = words_[index];
-        while (is_waiting(word)) {
-            if ((word & is_being_made) != 0) {
+    std::uint64_t finished(std::uint32_t index, std::uint64_t bits) const {
+        while (is_waiting(bits)) {
+            if ((bits & is_being_made) != 0) {
                 observer_.observe(LazyKdEvent::Waits{index});
-                place.wait(word, std::memory_order_acquire);
-                word = place.load(std::memory_order_acquire);
-            } else if (place.compare_exchange_weak(word, word | is_being_made,
-                                                   std::memory_order_acquire)) {
-                return made(index, word);
+                word(index).wait(bits, std::memory_order_acquire);
+                bits = word(index).load(std::memory_order_acquire);
+            } else if (word(index).compare_exchange_weak(bits, bits | is_being_made,
+                                                         std::memory_order_acquire)) {
+                return made(index, bits);
             }
         }
-        return word;
+        return bits;
     }
 
     /// What waited is given back when the node stands. Where it can't be made it waits on, for
     /// whoever comes next, and those who wait now.
-    std::uint64_t made(std::uint32_t index, std::uint64_t word) const {
-        std::unique_ptr<Waiting> waiting(waiting_at(word));
-        const auto publish = [&](std::uint64_t bits) {
-            words_[index].store(bits, std::memory_order_release);
-            words_[index].notify_all();
-            return bits;
+    std::uint64_t made(std::uint32_t index, std::uint64_t bits) const {
+        std::unique_ptr<Waiting> waiting(waiting_at(bits));
+        const auto publish = [&](std::uint64_t next) {
+            word(index).store(next, std::memory_order_release);
+            word(index).notify_all();
         };
         try {
             observer_.observe(LazyKdEvent::Entered{index});
-            word = publish(step(index, *waiting).bits());
+            bits = node_of(index, *waiting).bits();
         } catch (...) {
             publish(waiting_word(std::move(waiting)));
             throw;
         }
+        publish(bits);
         observer_.observe(LazyKdEvent::Stands{index});
-        return word;
+        return bits;
     }
     // [finished]
+
+    KdNode node_of(std::uint32_t index, Waiting& waiting) const {
+        Task& task = waiting.task;
+        if (index == 0 && task.references.empty()) task = splitter_.root();
+        return task.references.size() > config_.at_once ? step(index, waiting) : all_below(task);
+    }
 
     // [step]
     /// Chapter 4's step. All that may throw comes before `divide` takes from the task.
     KdNode step(std::uint32_t index, Waiting& waiting) const {
         Task& task = waiting.task;
-        if (index == 0 && task.references.empty()) task = splitter_.root();
         const std::optional<KdSplit> split = splitter_.choose(task, observer_);
         observer_.observe(
             typename Splitter::Chosen{index, task.depth, task.cell, task.references, split});
@@ -240,35 +254,58 @@ class LazyKdNodes {
         count_references(children.shared);
         below->task = std::move(children.below);
         above->task = std::move(children.above);
-        words_[waiting.below].store(waiting_word(std::move(below)), std::memory_order_relaxed);
-        words_[waiting.below + 1].store(waiting_word(std::move(above)), std::memory_order_relaxed);
+        word(waiting.below).store(waiting_word(std::move(below)), std::memory_order_relaxed);
+        word(waiting.below + 1).store(waiting_word(std::move(above)), std::memory_order_relaxed);
         return KdNode::inner(*split, waiting.below);
     }
     // [step]
 
     KdNode leaf(const Task& task) const {
         const auto count = static_cast<std::uint32_t>(task.references.size());
-        const std::uint32_t first = references_.add(count, KdNode::largest);
-        std::uint32_t* named = count > 0 ? &references_[first] : nullptr;
-        for (const auto& reference : task.references) *named++ = reference.polygon;
-        return KdNode::leaf(first, count);
+        std::uint32_t first = references_.add(count, KdNode::largest);
+        const KdNode node = KdNode::leaf(first, count);
+        for (const auto& reference : task.references) references_[first++] = reference.polygon;
+        return node;
     }
 
-    /// Of all threads together; without lost parts none is left over.
+    // [all_below]
+    /// Chapter 4's builder makes the rest, and its nodes and lists are moved to where ours are.
+    KdNode all_below(const Task& task) const {
+        const std::size_t size = task.references.size();
+        KdBuilder<D> builder(splitter_, config_.eager());
+        const KdNodes<D> part = builder.run(task, observer_);
+        count_references(builder.references() -
+                         size);  // first: places that are added are not given back
+        const std::uint32_t named = references_.add(part.references.size(), KdNode::largest);
+        const std::uint32_t place = words_.add(part.nodes.size() - 2, KdNode::largest) - 2;
+        const auto moved = [&](const KdNode& node) {
+            return node.is_leaf()
+                       ? KdNode::leaf(named + node.first(), node.count())
+                       : KdNode::inner({node.axis(), node.position()}, place + node.below());
+        };
+        for (std::uint32_t i = 0; i < part.references.size(); ++i)
+            references_[named + i] = part.references[i];
+        for (std::uint32_t i = 2; i < part.nodes.size(); ++i)
+            word(place + i).store(moved(part.nodes[i]).bits(), std::memory_order_relaxed);
+        return moved(part.nodes[0]);
+    }
+    // [all_below]
+
+    /// Of all threads together.
     void count_references(std::size_t more) const {
-        if (references_counted_.fetch_add(more) + more <= max_references_) return;
+        if (references_counted_.fetch_add(more) + more <= config_.max_references) return;
         references_counted_ -= more;
-        throw LimitError("lazy k-d tree: more than " + std::to_string(max_references_) +
+        throw LimitError("lazy k-d tree: more than " + std::to_string(config_.max_references) +
                          " references (max_references)");
     }
 
     template <class Visit>
     void for_each_cell(std::uint32_t index, const BasicAabb<D>& cell, std::size_t depth,
                        const Visit& visit) const {
-        const std::uint64_t word = words_[index].load(std::memory_order_acquire);
-        const KdNode now = KdNode::of_bits(word);
-        if (is_waiting(word)) {
-            const std::size_t size = waiting_at(word)->task.references.size();
+        const std::uint64_t bits = word(index).load(std::memory_order_acquire);
+        const KdNode now = KdNode::of_bits(bits);
+        if (is_waiting(bits)) {
+            const std::size_t size = waiting_at(bits)->task.references.size();
             visit(Cell{index, cell, depth, State::waiting, index == 0 ? polygons_.size() : size});
         } else if (now.is_leaf()) {
             visit(Cell{index, cell, depth, State::leaf, now.count()});
@@ -288,10 +325,10 @@ class LazyKdNodes {
     }
 
     std::span<const Simplex<D>> polygons_;
-    std::size_t max_references_;
+    Config config_;
     Splitter splitter_;
-    mutable Chunks<std::atomic<std::uint64_t>> words_;  ///< the nodes
-    mutable Chunks<std::uint32_t> references_;          ///< polygons, by leaf
+    mutable Chunks<std::uint64_t> words_;       ///< the nodes, by atomic access alone
+    mutable Chunks<std::uint32_t> references_;  ///< polygons, by leaf
     mutable std::atomic<std::size_t> references_counted_{0};
     [[no_unique_address]] mutable Observer observer_;
 };
@@ -309,7 +346,7 @@ LazyKdCounts LazyKdNodes<D, Observer>::counts() const {
         if (cell.state != State::waiting) return;
         ++counts.waiting;
         counts.waiting_references += cell.references;
-        const Task& task = waiting_at(words_[cell.node].load())->task;
+        const Task& task = waiting_at(word(cell.node).load())->task;
         counts.waiting_bytes += task.references.size() * sizeof task.references[0];
         for (const auto& list : task.events)
             counts.waiting_bytes += list.size() * sizeof(SplitEvent);

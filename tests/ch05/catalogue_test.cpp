@@ -186,8 +186,8 @@ TEST_CASE("K7, the cure: one makes the node, the other waits until the children 
             .after_cutting = after_cutting, .start_other = [&] {
                 other = std::jthread([&] { other_hit = closest_hit(*tree, floor.other_ray); });
             }};
-        const auto built =
-            WatchedLazyKdTree<FilteredExact, Meeting>::build(floor.triangles, {}, Meeting(&shared));
+        const auto built = WatchedLazyKdTree<FilteredExact, Meeting>::build(
+            floor.triangles, {.at_once = 0}, Meeting(&shared));
         tree = &built;
         const auto hit = closest_hit(built, floor.ray);
         other.join();

@@ -15,7 +15,7 @@ namespace space {
 constexpr std::uint32_t many = 1u << 29;
 
 TEST_CASE("chunks: what is added lies side by side, never overlaps, and never moves") {
-    Chunks<std::uint32_t> chunks;
+    Chunks<std::uint32_t> chunks(100);
     Pcg32 random(1);
     struct Run {
         std::uint32_t first, count;
@@ -40,19 +40,13 @@ TEST_CASE("chunks: what is added lies side by side, never overlaps, and never mo
     }
 }
 
-TEST_CASE("chunks: new elements are zero, pairs begin at even places, and the first is 0") {
-    Chunks<std::atomic<std::uint64_t>> chunks;
-    CHECK(chunks.add(2, many) == 0);
-    for (std::uint32_t i = 1; i < 1'000; ++i) {
-        const std::uint32_t pair = chunks.add(2, many);
-        REQUIRE(pair == 2 * i);
-        REQUIRE(chunks[pair] == 0);
-        REQUIRE(chunks[pair + 1] == 0);
-    }
+TEST_CASE("chunks: pairs begin at even places, and the first is 0") {
+    Chunks<std::uint64_t> chunks(64);
+    for (std::uint32_t i = 0; i < 1'000; ++i) REQUIRE(chunks.add(2, many) == 2 * i);
 }
 
 TEST_CASE("chunks: no more than allowed") {
-    Chunks<char> chunks;
+    Chunks<char> chunks(10);
     CHECK(chunks.add(60, 100) == 0);
     CHECK_THROWS_AS(chunks.add(41, 100), std::bad_alloc);  // would begin at 64, in the next chunk
     CHECK(chunks.add(36, 100) == 64);
@@ -61,7 +55,7 @@ TEST_CASE("chunks: no more than allowed") {
 }
 
 TEST_CASE("chunks: threads that add at the same time get places of their own") {
-    Chunks<std::uint32_t> chunks;
+    Chunks<std::uint32_t> chunks(100);
     constexpr unsigned threads = 4;
     std::vector<std::vector<std::uint32_t>> places(threads);
     {

@@ -122,8 +122,8 @@ TEST_CASE("2 to 8 threads with delays: the same tree and hits each time, one thr
         Delays delays;
         delays.happened = &happened;
         delays.seed = std::uint64_t(run);
-        const auto tree =
-            WatchedLazyKdTree<FilteredExact, Delays>::build(questions.triangles, {}, delays);
+        const auto tree = WatchedLazyKdTree<FilteredExact, Delays>::build(questions.triangles,
+                                                                          {.at_once = 0}, delays);
         std::atomic<std::size_t> wrong{0};
         on_threads(threads,
                    [&](unsigned thread) { wrong += wrong_answers(tree, questions, thread); });
@@ -150,7 +150,8 @@ TEST_CASE("threads make a larger tree together, without delays") {
     const Watchdog watchdog(300);
     const Questions questions(scenes::soup(sized(4'000u, 400u), 0.05f, 12), sized(2'000, 200));
     for (int run = 0; run < 5; ++run) {
-        const auto tree = LazyKdTree<>::build(questions.triangles);
+        const auto tree =
+            LazyKdTree<>::build(questions.triangles, {.at_once = run % 2 == 0 ? 16u : 0u});
         std::atomic<std::size_t> wrong{0};
         on_threads(4, [&](unsigned thread) { wrong += wrong_answers(tree, questions, thread); });
         CHECK(wrong == 0);
@@ -248,24 +249,25 @@ TEST_CASE("an error at any step of any node leaves the node as it was") {
         void observe(const KdSplitter<3>::Chosen&) const { count(); }
         void observe(const KdSplitter<3>::Placed&) const { count(); }
     };
-    for (const auto& triangles : {scenes::soup(20, 0.5f, 15), scenes::ball(1)}) {
-        const auto eager = KdBuilder<3>::build(triangles);
-        int failures = 0, left = 0;
-        const LazyKdNodes<3, FailsAt> lazy(triangles, {}, FailsAt(&left));
-        for (int fails_at = 0;; ++fails_at) {
-            left = fails_at;
-            try {
-                lazy.build_all();
-                break;
-            } catch (const std::bad_alloc&) {
-                ++failures;
+    for (const std::size_t at_once : {0, 8})
+        for (const auto& triangles : {scenes::soup(20, 0.5f, 15), scenes::ball(1)}) {
+            const auto eager = KdBuilder<3>::build(triangles);
+            int failures = 0, left = 0;
+            const LazyKdNodes<3, FailsAt> lazy(triangles, {.at_once = at_once}, FailsAt(&left));
+            for (int fails_at = 0;; ++fails_at) {
+                left = fails_at;
+                try {
+                    lazy.build_all();
+                    break;
+                } catch (const std::bad_alloc&) {
+                    ++failures;
+                }
             }
+            CHECK(failures > 20);
+            const SameTree same(eager, lazy);
+            CHECK(same.fault() == "");
+            CHECK(same.waiting() == 0);
         }
-        CHECK(failures > 20);
-        const SameTree same(eager, lazy);
-        CHECK(same.fault() == "");
-        CHECK(same.waiting() == 0);
-    }
 }
 
 TEST_CASE("the limit of references holds as in the eager tree, and what was made stays good") {
@@ -285,25 +287,30 @@ TEST_CASE("the limit of references holds as in the eager tree, and what was made
         return low;
     }();
     CHECK_THROWS_AS(LazyKdTree<>::build(questions.triangles, {.max_references = 199}), LimitError);
-    const auto enough = LazyKdTree<>::build(questions.triangles, {.max_references = needed});
-    CHECK_NOTHROW(enough.build_all());
-    const auto scarce = LazyKdTree<>::build(questions.triangles, {.max_references = needed - 1});
-    std::atomic<int> errors{0};
-    on_threads(4, [&](unsigned) {
-        for (int time = 0; time < 2; ++time) try {
-                scarce.build_all();
+    for (const std::size_t at_once : {0, 20}) {
+        const auto enough = LazyKdTree<>::build(questions.triangles,
+                                                {.max_references = needed, .at_once = at_once});
+        CHECK_NOTHROW(enough.build_all());
+        const auto scarce = LazyKdTree<>::build(questions.triangles,
+                                                {.max_references = needed - 1, .at_once = at_once});
+        std::atomic<int> errors{0};
+        on_threads(4, [&](unsigned) {
+            for (int time = 0; time < 2; ++time) try {
+                    scarce.build_all();
+                } catch (const LimitError&) {
+                    ++errors;
+                }
+        });
+        CHECK(errors == 8);
+        const SameTree same(questions.eager.nodes(), scarce.nodes());
+        CHECK(same.fault() == "");
+        CHECK(same.waiting() > 0);
+        for (std::size_t i = 0; i < questions.rays.size(); ++i) try {
+                const auto hit = closest_hit(scarce, questions.rays[i]);
+                CHECK(hit == questions.answers[i]);
             } catch (const LimitError&) {
-                ++errors;
             }
-    });
-    CHECK(errors == 8);
-    const SameTree same(questions.eager.nodes(), scarce.nodes());
-    CHECK(same.fault() == "");
-    CHECK(same.waiting() > 0);
-    for (std::size_t i = 0; i < questions.rays.size(); ++i) try {
-            CHECK(closest_hit(scarce, questions.rays[i]) == questions.answers[i]);
-        } catch (const LimitError&) {
-        }
+    }
 }
 
 }  // namespace space
