@@ -112,8 +112,8 @@ class LazyKdNodes {
           polygons_(polygons),
           config_(config),
           splitter_(polygons, config.eager()),
-          words_(8 * polygons.size()),
-          references_(8 * polygons.size()),
+          words_(4 * polygons.size()),
+          references_(4 * polygons.size()),
           observer_(std::move(observer)) {
         if (empty()) return;
         count_references(polygons.size());
@@ -274,8 +274,8 @@ class LazyKdNodes {
         const std::size_t size = task.references.size();
         KdBuilder<D> builder(splitter_, config_.eager());
         const KdNodes<D> part = builder.run(task, observer_);
-        count_references(builder.references() -
-                         size);  // first: places that are added are not given back
+        // First, because places that are added are not given back.
+        count_references(builder.references() - size);
         const std::uint32_t named = references_.add(part.references.size(), KdNode::largest);
         const std::uint32_t place = words_.add(part.nodes.size() - 2, KdNode::largest) - 2;
         const auto moved = [&](const KdNode& node) {

@@ -89,11 +89,12 @@ std::vector<Measurement> measure(std::span<const Choice> chosen,
         attempt(measurements[i], built[i], [&] {
             measurements[i].build_threads = built[i].build_threads;
             measurements[i].configuration = built[i].configuration;
-            measurements[i].shape = built[i].shape();
             measurements[i].hits.resize(rays.size());
         });
     const std::vector<double> trace_ms = trace_all(measurements, rays, built, options);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
+        // As the rays leave it: a lazy tree stands by then.
+        attempt(measurements[i], built[i], [&] { measurements[i].shape = built[i].shape(); });
         measurements[i].build_ms = build_ms[i];
         measurements[i].trace_ms = trace_ms[i];
     }

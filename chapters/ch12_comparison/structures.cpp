@@ -25,12 +25,14 @@ std::vector<Structure> joined(std::vector<Home> homes) {
 std::vector<Structure> ch01_structures();
 std::vector<Structure> ch03_structures();
 std::vector<Structure> ch04_structures();
+std::vector<Structure> ch05_structures();
 
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all = joined({
         {"chapter 1", ch01_structures()},
         {"chapter 3", ch03_structures()},
         {"chapter 4", ch04_structures()},
+        {"chapter 5", ch05_structures()},
     });
     return all;
 }

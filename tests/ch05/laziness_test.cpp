@@ -12,13 +12,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace space {
+namespace test {
+extern std::atomic<std::ptrdiff_t> living_allocations;  // allocations.cpp
+}
 namespace {
 
 using Rule = LazyKdTreeConfig::Rule;
@@ -248,6 +253,28 @@ TEST_CASE("lists are given back as nodes stand") {
     CHECK(last.waiting_bytes == 0);
     CHECK(last.bytes < first.bytes);
     fmt::print("  {} bytes with the root alone, {} in the end\n", first.bytes, last.bytes);
+}
+
+TEST_CASE("what stands holds no list: a few allocations, however many nodes; in the end none") {
+    const auto triangles = scenes::soup(sized(3'000u, 500u), 0.05f, 6);
+    const std::ptrdiff_t before = test::living_allocations;
+    const auto living = [&] { return test::living_allocations - before; };
+    for (const std::size_t at_once : {0, 64}) {
+        {
+            const auto lazy = LazyKdTree<>::build(triangles, {.at_once = at_once});
+            const std::ptrdiff_t untouched = living();
+            for (const Ray& ray : some_rays(triangles, 2)) closest_hit(lazy, ray);
+            const auto waiting = std::ptrdiff_t(lazy.nodes().counts().waiting);
+            CHECK(waiting > 10);
+            CHECK(living() <= untouched + 5 * waiting + 3);  // a task has four lists
+            lazy.build_all();
+            CHECK(living() < untouched + 3);  // later chunks, in place of the root's task
+        }
+        CHECK(living() == 0);
+        // Nor does a tree keep anything that dies young.
+        { const auto lazy = LazyKdTree<>::build(triangles, {.at_once = at_once}); }
+        CHECK(living() == 0);
+    }
 }
 
 TEST_CASE("shape is that of the tree as it stands, where what waits is a leaf") {

@@ -26,8 +26,8 @@ Numbers count_lab() {
     Progress progress("the lab's structures", structures().size());
     for (const Structure& structure : structures()) {
         const BuiltStructure built = structure.variants.front().build(triangles, {});
-        const TreeShape shape = built.shape();
         const TraversalCounts work = built.count({.rays = rays, .hits = hits});
+        const TreeShape shape = built.shape();  // as the rays leave it
         table.row({std::string(structure.name), count(shape.nodes), count(shape.leaves),
                    count(shape.depth), with_commas(shape.references),
                    with_commas(static_cast<std::uint64_t>(std::ranges::count_if(
