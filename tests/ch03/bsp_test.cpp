@@ -144,7 +144,7 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
                                                   .thickness_in_roundings = 1000.0});
         Pcg32 random(3);
         int wrong = 0;
-        for (int i = 0; i < 10'000; ++i) {  // at points of cuts and edges
+        for (int i = 0; i < sized(10'000, 1'000); ++i) {  // at points of cuts and edges
             const auto& fragments = bsp.tree().fragments;
             const Fragment<3>& fragment =
                 fragments[random.below(static_cast<std::uint32_t>(fragments.size()))];

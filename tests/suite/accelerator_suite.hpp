@@ -94,15 +94,16 @@ struct SuiteReport {
 };
 
 struct SuiteOptions {
-    int aimed_rays = sized(10'000, 1'000);  ///< at edges and vertices, per scene
-    int other_rays = sized(400, 60);        ///< of each other kind, per scene
-    int exact_rays = 100;  ///< about so many per scene whose naive answers the exact oracle sees
+    int aimed_rays = sized(10'000, 400);  ///< at edges and vertices, per scene
+    int other_rays = sized(400, 40);      ///< of each other kind, per scene
+    /// About so many per scene whose naive answers the exact oracle sees.
+    int exact_rays = sized(100, 20);
     unsigned patience =
         60;  ///< seconds that a scene may take in the child before it counts as hanging
     /// Tries each scene in a child process first, so that a crash or a hang becomes a failure with
     /// a name. Not for structures whose builders keep threads of a library alive: a child has none
-    /// of them.
-    bool in_child = true;
+    /// of them. A sanitizer names the place of a crash itself.
+    bool in_child = sized(true, false);
     std::vector<TestScene> scenes = adversarial_scenes();
 
     /// A quarter of the rays, and no child process.
