@@ -39,11 +39,11 @@ Options read_options(int argc, char** argv) {
     return options;
 }
 
-/// One picture by a tree of which nothing stands at first, ray by ray.
+/// One picture by a tree of which nothing stands at first, and then only what rays have entered.
 void draw_picture(const Options& options) {
     const Scene scene = asked_scene(options);
     const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const auto tree = LazyKdTree<>::build(triangles);
+    const auto tree = LazyKdTree<>::build(triangles, {.at_once = 0});
     const auto print_state = [&](std::string_view when) {
         const LazyKdCounts counts = tree.nodes().counts();
         fmt::print("{}: {} nodes stand, {} wait with {} references.\n", when,

@@ -37,7 +37,7 @@ Image fig_05_01(const Options& options) {
     const ViewedScene field = plants(7, 1);
     const Scene near = field.seen(field.views.back());
     const std::vector<Triangle> triangles = near.mesh.triangles();
-    const auto tree = LazyKdTree<>::build(triangles);
+    const auto tree = LazyKdTree<>::build(triangles, {.at_once = 0});
     const Image seen = render(near, tree, with_threads(options.threads)).image;
     Scene all = field.scene;
     color_what_stands(all, tree);

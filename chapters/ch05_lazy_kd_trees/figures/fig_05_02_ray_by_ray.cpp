@@ -70,9 +70,12 @@ class Story {
     std::vector<Step> steps;
 
     Story() {
-        const Nodes nodes(
-            segments, {.rule = LazyKdTreeConfig::Rule::median, .max_leaf_size = 1, .max_depth = 3},
-            Watcher(made));
+        const Nodes nodes(segments,
+                          {.rule = LazyKdTreeConfig::Rule::median,
+                           .max_leaf_size = 1,
+                           .max_depth = 3,
+                           .at_once = 0},
+                          Watcher(made));
         steps.push_back(
             {.tells = fmt::format("{} segments, and the box of them all. One node waits, "
                                   "with all of them; nothing else is there.",

@@ -73,7 +73,8 @@ std::vector<Told> watched_threads() {
     const std::vector<Segment> segments = heinonen_segments();
     Log log;
     const LazyKdNodes<2, Watcher> nodes(
-        segments, {.rule = LazyKdTreeConfig::Rule::median, .max_leaf_size = 1}, Watcher(log, near));
+        segments, {.rule = LazyKdTreeConfig::Rule::median, .max_leaf_size = 1, .at_once = 0},
+        Watcher(log, near));
     nodes.node(0);
     const auto come = [&](std::size_t thread, std::uint32_t node) {
         this_thread = thread;

@@ -57,10 +57,11 @@ struct ViewPoint {
     std::string scene, view;
     std::uint64_t triangles = 0, rays = 0;
     Drawn eager, lazy;
+    std::uint64_t nodes_singly = 0;  ///< of a lazy tree that makes nothing but what is entered
     std::uint64_t other_pixels = 0;  ///< in which the pictures differ
 
     bool is_plants() const { return scene == plants_name; }
-    double node_share() const { return double(lazy.nodes) / double(eager.nodes); }
+    double node_share() const { return double(nodes_singly) / double(eager.nodes); }
     double build_share() const { return lazy.build_ms / eager.build_ms; }
     double total_share() const { return lazy.total_ms / eager.total_ms; }
 

@@ -82,13 +82,17 @@ std::vector<ViewPoint> measure_views(const Options& options) {
             const auto lazy = LazyKdTree<>::build(triangles, {.mailboxes = false});
             const auto [eager_drawn, eager_image] = draw(scene, eager, settings);
             const auto [lazy_drawn, lazy_image] = draw(scene, lazy, settings);
+            const auto singly = LazyKdTree<>::build(triangles, {.at_once = 0, .mailboxes = false});
+            const auto [singly_drawn, singly_image] = draw(scene, singly, settings);
             points.push_back({.scene = scene.name,
                               .view = std::string(view.name),
                               .triangles = triangles.size(),
                               .rays = std::uint64_t(limit.width) * std::uint64_t(limit.height),
                               .eager = eager_drawn,
                               .lazy = lazy_drawn,
-                              .other_pixels = differing_pixels(eager_image, lazy_image)});
+                              .nodes_singly = singly_drawn.nodes,
+                              .other_pixels = differing_pixels(eager_image, lazy_image) +
+                                              differing_pixels(eager_image, singly_image)});
             if (!options.small) time_view(points.back(), triangles, scene, settings, limit.rounds);
         }
         progress.step();

@@ -31,18 +31,19 @@ std::string megabytes(double bytes) {
 // --- Johnston06's table ---
 
 Table views_table(const std::vector<ViewPoint>& views) {
-    Table table({"scene", "view", "triangles", "nodes, eager", "lazy", "share", "in the report",
-                 "tests per pixel, eager", "lazy", "hits, eager", "lazy", "other pixels"});
+    Table table({"scene", "view", "triangles", "nodes, eager", "lazy, one by one", "share",
+                 "in the report", "lazy", "tests per pixel, eager", "lazy", "hits, eager", "lazy",
+                 "other pixels"});
     for (const ViewPoint& p : views) {
         const std::optional<PublishedRow> row = published(p);
         const auto per_pixel = [&](const Drawn& drawn) {
             return fixed(double(drawn.tests) / double(p.rays), 2);
         };
         table.row({p.scene, p.view, with_commas(p.triangles), with_commas(p.eager.nodes),
-                   with_commas(p.lazy.nodes), share_of(p.node_share()),
-                   row ? share_of(row->node_share()) : "empty", per_pixel(p.eager),
-                   per_pixel(p.lazy), with_commas(p.eager.hits), with_commas(p.lazy.hits),
-                   with_commas(p.other_pixels)});
+                   with_commas(p.nodes_singly), share_of(p.node_share()),
+                   row ? share_of(row->node_share()) : "empty", with_commas(p.lazy.nodes),
+                   per_pixel(p.eager), per_pixel(p.lazy), with_commas(p.eager.hits),
+                   with_commas(p.lazy.hits), with_commas(p.other_pixels)});
     }
     return table;
 }
@@ -205,7 +206,7 @@ void quote_views(const std::vector<ViewPoint>& views, bool times, Numbers& numbe
         std::string name = p.scene + "_" + p.view;
         std::ranges::replace(name, ' ', '_');
         std::ranges::replace(name, '-', '_');
-        numbers.count(name + "_nodes", p.lazy.nodes);
+        numbers.count(name + "_nodes", p.nodes_singly);
         numbers.count(name + "_share", p.node_share(), share_of(p.node_share()));
         if (!times) continue;
         numbers.time(name + "_build", p.build_share(), percent(p.build_share()));
