@@ -71,6 +71,17 @@ first_failure() {
         "$log/exercise.txt"
 }
 
+# What a program did that ended with this exit code, 128 and the number of a signal.
+crash_in_words() {
+    case $(($1 - 128)) in
+        4) echo 'comes where no code is: does a function with a result end without return?' ;;
+        6) echo 'is aborted: an assertion or a check of a container failed, or an exception was not caught' ;;
+        8) echo 'divides a whole number by zero' ;;
+        7 | 11) echo 'reads or writes memory that is not its own: is an index too large, a pointer null, or a recursion without end?' ;;
+        *) echo 'is ended by the system' ;;
+    esac
+}
+
 check_exercise() {
     local compiled warnings result=0 state verdict
     find_exercise "$1"
@@ -85,7 +96,7 @@ check_exercise() {
     compiled=$(cmake --build "$root/build/release" --target "$exercise.exercise" -- -k 0 2>&1) || result=$?
     # What was compiled before is not compiled again: its warnings are shown again.
     if [[ $compiled != *'no work to do'* ]]; then
-        grep -vE '^(\[[0-9]|ninja: |FAILED: |-- |/usr/bin/|/usr/lib/ccache)' <<<"$compiled" >"$warnings" || true
+        grep -vE '^ *(\[[0-9]|ninja: |FAILED: |-- |/usr/bin/|/usr/lib/ccache)' <<<"$compiled" >"$warnings" || true
     fi
     [[ ! -f $warnings ]] || shorten <"$warnings"
     if ((result != 0)); then
@@ -110,7 +121,7 @@ check_exercise() {
     elif grep -q 'bad_alloc' "$log/exercise.txt" "$log/exercise_own.txt"; then
         verdict='needs more than 2 GB of memory: does something grow without end?'
     elif grep -q 'fatal error condition' "$log/exercise.txt" || ((result > 128 && result < 160)); then
-        verdict="crashes (exit code $result)."
+        verdict="crashes: it $(crash_in_words "$result") (exit code $result)."
     elif ((result == 0)) || ! grep -q '^test cases\?: .* failed' "$log/exercise.txt"; then
         verdict='ends the program before the checks are done: does it call exit?'
     else

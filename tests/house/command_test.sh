@@ -27,6 +27,7 @@ ends 0 'book run' help
 ends 0 'book run' --help
 ends 0 'book run'
 for command in run try test exercise figures bench docs print scenes doctor; do ends 0 "^  ./book $command " $command --help; done
+ends 0 '^  --structure ' lab --help
 ends 0 '^Splitting Space [0-9]' --version
 ends 0 '^  ./book figures ' help figures
 ends 2 'help: there is no command nonsense' help nonsense
@@ -105,8 +106,10 @@ if [[ ${2:-} == check && -n $stub ]]; then
         } >"$copy/$stub"
     }
     also_does 'std::abort();'
-    ends 1 'crashes \(exit code' exercise check 1.1
+    ends 1 'crashes: it is aborted: .* \(exit code 134\)' exercise check 1.1
     ! grep -q 'exercises\.sh' "$tree/said.txt" || wrong "the shell speaks too: $(<"$tree/said.txt")"
+    also_does 'volatile int* nowhere = nullptr; *nowhere = 1;'
+    ends 1 'crashes: it reads or writes memory that is not its own: .* \(exit code 139\)' exercise check 1.1
     also_does 'std::exit(0);'
     ends 1 'before the checks are done' exercise check 1.1
     also_does 'for (std::string s = "x";;) s += s;'
