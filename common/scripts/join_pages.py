@@ -2,9 +2,12 @@
 """One PDF of many: with an outline by pages and sections, and links that stay inside.
 
 Run   join_pages.py BOOK.pdf < LIST     each line of LIST: a PDF that Chromium printed, the HTML file that it shows, its title
+
+Pages of one chapter have titles that begin with its number, "2. Roots"; the later ones stand below the first.
 """
 import html
 import os
+import re
 import sys
 from urllib.parse import unquote, urlsplit
 
@@ -40,6 +43,7 @@ class Book:
         self.first = {}  # HTML file -> its first sheet in the book, from 0
         self.places = {}  # HTML file -> {name: (sheet within it, height)}
         self.links = []  # (sheet, rectangle, HTML file, address)
+        self.chapters = {}  # "2. " -> the outline's item of that chapter's first page
 
     def add(self, pdf, file, title):
         reader = PdfReader(pdf)
@@ -50,7 +54,12 @@ class Book:
         outline = reader.outline
         for sheet in reader.pages:
             self.writer.add_page(sheet)
-        self.add_outline(reader, outline, first, self.writer.add_outline_item(title, first))
+        number = re.match(r"\d+\. ", title)
+        chapter = number and self.chapters.get(number[0])
+        item = self.writer.add_outline_item(title[number.end():] if chapter else title, first, chapter)
+        if number:
+            self.chapters.setdefault(number[0], item)
+        self.add_outline(reader, outline, first, item)
 
     def add_outline(self, reader, items, first, parent):
         last = parent

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""join_pages_test.py SCRIPT: proves that the book's PDF has an outline by pages and sections, at the right sheets, and
-links that lead where they led: within a page, to another page of the book and into it, to the web; others are gone.
+"""join_pages_test.py SCRIPT: proves that the book's PDF has an outline by chapters, pages and sections, at the right sheets,
+and links that lead where they led: within a page, to another page of the book and into it, to the web; others are gone.
 """
 import os
 import subprocess
@@ -55,13 +55,15 @@ def titles(reader, items, depth=0):
 with tempfile.TemporaryDirectory() as folder:
     first = part(folder, "a", 2, ["#place", "file:///site/b.html", "file:///site/b.html#place"])
     second = part(folder, "b", 3, ["file:///site/a.html#none", "https://example.org/x", "file:///site/code_8hpp.html"])
+    third = part(folder, "c", 1, [])
     book = os.path.join(folder, "book.pdf")
     subprocess.run([sys.executable, sys.argv[1], book], check=True, text=True,
-                   input=f"{first}\ta.html\t1. A &amp; more\n{second}\tb.html\t2. B\n")
+                   input=f"{first}\ta.html\t1. A &amp; more\n{second}\tb.html\t2. B\n{third}\tc.html\t2. C\n")
     reader = PdfReader(book)
     found = list(titles(reader, reader.outline))
     expected = [(0, "1. A & more", 0), (1, "Section of a", 1), (2, "Subsection of a", 1),
-                (0, "2. B", 2), (1, "Section of b", 4), (2, "Subsection of b", 4)]
+                (0, "2. B", 2), (1, "Section of b", 4), (2, "Subsection of b", 4),
+                (1, "C", 5), (2, "Section of c", 5), (3, "Subsection of c", 5)]
     numbers = {page.indirect_reference.idnum: number for number, page in enumerate(reader.pages)}
     leads = []
     for page in reader.pages:
@@ -69,11 +71,11 @@ with tempfile.TemporaryDirectory() as folder:
             item = annotation.get_object()
             leads.append(numbers[item["/Dest"][0].idnum] if "/Dest" in item else str(item["/A"]["/URI"]))
     faults = []
-    if len(reader.pages) != 5:
-        faults.append(f"{len(reader.pages)} sheets, not 5")
+    if len(reader.pages) != 6:
+        faults.append(f"{len(reader.pages)} sheets, not 6")
     if found != expected:
         faults.append(f"the outline is {found}")
     if leads != [1, 2, 4, 0, "https://example.org/x"]:
         faults.append(f"links lead to {leads}")
-print("\n".join(faults) or "an outline of 6 and 5 links, as they should be")
+print("\n".join(faults) or "an outline of 9 and 5 links, as they should be")
 sys.exit(1 if faults else 0)
