@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 /// A figure of the list that CMake writes.
 struct Figure {
     std::string id, chapter, kind, caption;
-    fs::path file;  ///< the newest picture of it
+    fs::path file;  ///< the newest picture of it; empty where there is none
 };
 
 /// An exercise as the head of its stub describes it.
@@ -47,6 +47,17 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 const char* extension_of(const Figure& figure) {
     return figure.kind == "rendering" ? "png" : "svg";
+}
+
+/// "3.4", as the text has it and ./book figures takes it.
+std::string number_of(const Figure& figure) {
+    return fmt::format("{}.{}", std::stoi(figure.id.substr(4, 2)), std::stoi(figure.id.substr(7)));
+}
+
+/// What stands in place of a figure whose file is not there.
+std::string absent(const Figure& figure) {
+    return fmt::format("<b>Figure {} is not here</b>: `./book run {}` makes it.", number_of(figure),
+                       std::stoi(figure.id.substr(4, 2)));
 }
 
 /// Figures of a folder named chNN: the reader's own run where it is newer than what is committed.
@@ -262,6 +273,7 @@ std::string figures_page(const std::vector<Chapter>& chapters, const std::vector
         for (const Figure& figure : figures) {
             if (figure.chapter != chapter.folder) continue;
             text += fmt::format("\\{}\n", figure.id);
+            if (figure.file.empty()) continue;
             const std::string extension = extension_of(figure);
             std::string links =
                 fmt::format("<code>{0}</code> {1} <a href=\"{0}.{2}\" download>{3}</a>", figure.id,
@@ -429,12 +441,12 @@ void write_texts(const Places& places) {
 std::string figure_aliases(const Places& places) {
     std::string lines;
     for (const Figure& figure : read_figures(places)) {
-        const int chapter = std::stoi(figure.id.substr(4, 2)),
-                  number = std::stoi(figure.id.substr(7));
         const std::string caption = std::regex_replace(figure.caption, std::regex("\""), "\\\"");
         lines +=
-            fmt::format("ALIASES += \"{0}=\\image html {0}.{1} \\\"Figure {2}.{3}: {4}\\\"\"\n",
-                        figure.id, extension_of(figure), chapter, number, caption);
+            figure.file.empty()
+                ? fmt::format("ALIASES += \"{}={}\"\n", figure.id, absent(figure))
+                : fmt::format("ALIASES += \"{0}=\\image html {0}.{1} \\\"Figure {2}: {3}\\\"\"\n",
+                              figure.id, extension_of(figure), number_of(figure), caption);
     }
     return lines;
 }
@@ -498,7 +510,7 @@ void write_pages(const Places& places) {
     write("layout.xml", layout(places, chapters));
     write_texts(places);
     for (const Figure& figure : figures) {
-        if (figure.file.empty()) continue;  // Doxygen tells which page misses it
+        if (figure.file.empty()) continue;
         write_file(places.pages / "images" / figure.file.filename(), read_file(figure.file));
         const fs::path data = fs::path(figure.file).replace_extension(".csv");
         if (figure.kind == "chart" && exists(data))

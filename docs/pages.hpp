@@ -23,7 +23,7 @@ struct Places {
 void write_pages(const Places& places);
 
 /// Settings for Doxygen: \\fig_01_03 in a page stands for that figure with its number and its
-/// caption, both from the register of figures.
+/// caption, both from the register of figures; for a sentence where the figure has no file.
 std::string figure_aliases(const Places& places);
 
 /// The chapter's .dox files as the menu lists them: chapter.dox, then the others in the order in

@@ -171,6 +171,25 @@ TEST_CASE("a page's table of files is its README's, with names in place of links
     CHECK_THROWS_AS(files_table(readme), Error);
 }
 
+TEST_CASE("in place of a figure without a file stands a sentence, and the others stand") {
+    const Folder folder;
+    const Places places{
+        .root = folder.path, .configured = folder.path, .runs = folder.path / "runs", .pages = {}};
+    write_file(folder.path / "figures.json",
+               R"([{"id": "fig_04_06", "chapter": "ch04_a", "kind": "chart", "caption": "Times"},
+                   {"id": "fig_04_07", "chapter": "ch04_a", "kind": "drawing", "caption": "A"}])");
+    write_file(folder.path / "figures/fig_04_07.svg", "<svg/>");
+    const std::string drawing =
+        "ALIASES += \"fig_04_07=\\image html fig_04_07.svg \\\"Figure 4.7: A\\\"\"\n";
+    CHECK(figure_aliases(places) ==
+          "ALIASES += \"fig_04_06=<b>Figure 4.6 is not here</b>: `./book run 4` makes it.\"\n" +
+              drawing);
+    write_file(folder.path / "figures/measured/fig_04_06.svg", "<svg/>");
+    CHECK(figure_aliases(places) ==
+          "ALIASES += \"fig_04_06=\\image html fig_04_06.svg \\\"Figure 4.6: Times\\\"\"\n" +
+              drawing);
+}
+
 TEST_CASE("figures are numbered in the order in which the text shows them") {
     CHECK(figure_order_fault(
               3, "\\fig_03_01\n\\fig_02_09 and \\fig_03_02 \\fig_03_01\n\\fig_03_03") == "");

@@ -9,7 +9,9 @@ failures=0
 make_tree() {
     rm -rf "${tree:?}"/*
     mkdir -p "$tree"/{chapters/ch04_a/measured,chapters/ch12_comparison/structures,figures/measured,tests/ch04,docs}
-    echo 'add_chapter()' >"$tree/chapters/ch04_a/CMakeLists.txt"
+    printf '%s\n' 'add_chapter()' 'add_figure(fig_04_01 drawing' '    "a")' 'add_figure(fig_04_02 chart "b")' \
+        >"$tree/chapters/ch04_a/CMakeLists.txt"
+    echo '<svg/>' | tee "$tree/figures/fig_04_01.svg" >"$tree/figures/measured/fig_04_02.svg"
     for file in main.cpp README.md chapter.dox measured/expected_small.txt; do echo a >"$tree/chapters/ch04_a/$file"; done
     echo 'add_book_test(ch04.a SOURCES a_test.cpp)' >"$tree/tests/ch04/CMakeLists.txt"
     echo '{"folder": "ch04_a"}' >"$tree/docs/chapters.json"
@@ -38,6 +40,8 @@ finds 'without add_chapter' 'rm chapters/ch04_a/CMakeLists.txt'
 finds 'chapter.dox: missing' 'rm chapters/ch04_a/chapter.dox'
 finds 'expected_small.txt: missing' 'rm chapters/ch04_a/measured/expected_small.txt'
 finds 'ch04_numbers.json: missing: ./book run 4 --update' 'rm figures/measured/ch04_numbers.json'
+finds 'figures/fig_04_01.svg: missing' 'rm figures/fig_04_01.svg'
+finds 'figures/measured/fig_04_02.svg: missing' 'rm figures/measured/fig_04_02.svg'
 finds 'no test of' 'echo "add_book_test(ch03.a)" >tests/ch04/CMakeLists.txt'
 finds 'no test of' 'sed -i "s/^/# /" tests/ch04/CMakeLists.txt'
 finds "not among the lab's structures" 'sed -i /{/d chapters/ch12_comparison/structures.cpp'
