@@ -236,6 +236,16 @@ for name in book + samples:
     drawings += run("return document.querySelectorAll('svg.book-figure').length")
     look_at_logs(name)
 
+# On laptops and wider screens every line of a chapter's code can be read without scrolling.
+for name in (name for name in book if name.startswith("ch")):
+    window(1280)
+    open_page(name)
+    for width in (1100, 1280, 1450, 1920):
+        window(width)
+        cut = run("return [...document.querySelectorAll('.textblock .fragment')].filter((f) => f.scrollWidth > f.clientWidth).length")
+        if cut:
+            fault(name, f"at {width} px {cut} listings are cut")
+
 # The switch between light and dark: the page and its drawings change, and change back, whatever the system prefers.
 colours = """
     const shape = document.querySelector("svg.book-figure text, svg.book-figure [stroke]:not([stroke=none])");
