@@ -179,7 +179,7 @@ class Script {
         right_ =
             chart_width - std::max(24.0, text_gap + symbol_width +
                                              character_width * static_cast<double>(name_length));
-        top_ = keyed() ? 80 : 44;
+        top_ = keyed() ? 80 + (key_in_two_rows() ? line_height : 0) : 44;
     }
 
     std::string text() {
@@ -351,19 +351,28 @@ class Script {
             }
     }
 
-    void key() {
-        double x = left_, letters = 0;
+    /// Between the names of the key, if all stand in one row. Some fonts are wider than the one
+    /// that the width of a character is from: what is tight moves together.
+    double key_gap() const {
+        double letters = 0;
         for (const Series& series : chart_.series)
             letters += character_width * static_cast<double>(series.name.size());
-        // Some fonts are wider than the one that the width of a character is from: what is tight
-        // moves together.
-        const double gap = std::min(44.0, (chart_width - left_ - 24.0 - letters) /
-                                              static_cast<double>(chart_.series.size()));
-        for (std::size_t s = 0; s < chart_.series.size(); ++s) {
+        return std::min(44.0, (chart_width - left_ - 24.0 - letters) /
+                                  static_cast<double>(chart_.series.size()));
+    }
+    /// Where they would run into each other they stand in two rows.
+    bool key_in_two_rows() const { return key_gap() < symbol_width; }
+
+    void key() {
+        const std::size_t names = chart_.series.size();
+        const bool two = key_in_two_rows();
+        double x = left_, y = 50;
+        for (std::size_t s = 0; s < names; ++s) {
             const std::string& name = chart_.series[s].name;
-            symbol(s, x - 4, 50);
-            label(name, x + symbol_width - 4, 50, "left", Ink::ink);
-            x += gap + character_width * static_cast<double>(name.size());
+            if (two && s == (names + 1) / 2) x = left_, y += line_height;
+            symbol(s, x - 4, y);
+            label(name, x + symbol_width - 4, y, "left", Ink::ink);
+            x += (two ? 44.0 : key_gap()) + character_width * static_cast<double>(name.size());
         }
     }
 

@@ -9,6 +9,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
 
 using namespace space;
 namespace fs = std::filesystem;
@@ -100,6 +104,30 @@ TEST_CASE("a chart has the drawings' palette, style and ids") {
     for (const char* foreign :
          {"rgb(", "\"black\"", "\"white\"", "id='gp", "'#gp", "gnuplot", "<filter"})
         CHECK_FALSE(contains(svg, foreign));
+}
+
+TEST_CASE("the names of a chart's series have room: in one row, or in two") {
+    if (!gnuplot_is_here()) {
+        WARN("skipped: gnuplot is not installed");
+        return;
+    }
+    const TemporaryDirectory folder;
+    for (const std::size_t names : {2u, 4u, 5u}) {
+        Chart chart = growth();
+        chart.kind = ChartKind::points;
+        chart.series.assign(names, {.name = "SAH, boxes", .x = {1000}, .y = {1}});
+        write_chart(folder.path(), chart);
+        const std::string svg = read_file(folder.path() / "fig_99_01.svg");
+        static const std::regex place(R"(translate\(([0-9.]+),([0-9.]+)\)[^<]*<text>SAH)");
+        std::map<std::string, std::vector<double>> rows;  // by height
+        for (std::sregex_iterator at(svg.begin(), svg.end(), place), end; at != end; ++at)
+            rows[at->str(2)].push_back(std::stod(at->str(1)));
+        CAPTURE(names);
+        CHECK(rows.size() == (names < 5 ? 1 : 2));
+        for (const auto& [height, x] : rows)
+            for (std::size_t i = 1; i < x.size(); ++i)
+                CHECK(x[i] - x[i - 1] > 0.6 * 17 * 10 + 20);  // ten letters and a symbol
+    }
 }
 
 TEST_CASE("text in a chart is text: not a script, not markup") {
