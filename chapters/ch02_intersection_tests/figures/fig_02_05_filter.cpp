@@ -1,5 +1,7 @@
 #include "chapters/ch02_intersection_tests/figures.hpp"
 #include "chapters/ch02_intersection_tests/figures/bar.hpp"
+#include "chapters/ch02_intersection_tests/measured/chunks.hpp"
+#include "chapters/ch02_intersection_tests/measured/data.hpp"
 #include "chapters/ch02_intersection_tests/measured/inputs.hpp"
 #include "chapters/ch02_intersection_tests/triangle_tests.hpp"
 #include "common/program/report.hpp"
@@ -8,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,15 +30,10 @@ std::string with_powers(const std::string& text) {
 }
 
 /// A share of all, never rounded to all.
-std::string percent(int part, int all) {
+std::string percent(std::uint64_t part, std::uint64_t all) {
     if (part < all && 10'000 * (all - part) < all) return "> 99.99 %";
-    return fmt::format("{:.{}f} %", 100.0 * part / all, part == all ? 0 : 2);
+    return fmt::format("{:.{}f} %", 100.0 * double(part) / double(all), part == all ? 0 : 2);
 }
-
-struct StageCounts {
-    std::array<int, 3> count{};
-    void decided(Stage stage) { ++count[static_cast<std::size_t>(stage)]; }
-};
 
 constexpr int row = 34, head = 262;
 
@@ -71,25 +70,37 @@ void draw_number_line(Svg& svg) {
     svg.text({320, 30}, "a computed volume (the bound drawn far too wide)", {.ink = Ink::quiet});
 }
 
-void draw_who_decides(Svg& svg, std::uint64_t seed) {
-    constexpr int pairs = 20'000;
+/// Who decides about as many rays as the text speaks of, which are the same.
+StageCounts stages_of(const TriangleInput& input, std::uint64_t pairs, const Options& options) {
+    const auto count = [&](Pcg32& random, std::uint64_t rays) {
+        StageCounts stages;
+        for (std::uint64_t i = 0; i < rays; ++i) {
+            const auto [ray, triangle] = make_pair(input, random);
+            FilteredExact::intersect(ray, triangle, stages);
+        }
+        return stages;
+    };
+    StageCounts sum;
+    for (const auto& part :
+         count_by_chunks<StageCounts>(pairs, options.seed, options.threads, count))
+        for (std::size_t stage = 0; stage < 3; ++stage) sum.count[stage] += part.count[stage];
+    return sum;
+}
+
+void draw_who_decides(Svg& svg, const Options& options) {
+    constexpr std::uint64_t pairs = 1'000'000;
     constexpr double left = 176, right = 520;
     svg.text({320, 226}, fmt::format("who decides, of {} rays each", with_commas(pairs)),
              {.ink = Ink::quiet});
     const std::array<Ink, 3> inks{Ink::green, Ink::orange, Ink::purple};
     double top = head - 16;
     for (const TriangleInput& input : triangle_inputs()) {
-        Pcg32 random(seed);
-        StageCounts stages;
-        for (int i = 0; i < pairs; ++i) {
-            const auto [ray, triangle] = make_pair(input, random);
-            FilteredExact::intersect(ray, triangle, stages);
-        }
+        const StageCounts stages = stages_of(input, pairs, options);
         svg.text(at(left - 12, top + 18), with_powers(input.name),
                  {.anchor = Anchor::end, .size = 17});
         double x = left;
         for (std::size_t stage = 0; stage < 3; ++stage) {
-            const double next = x + (right - left) * stages.count[stage] / pairs;
+            const double next = x + (right - left) * double(stages.count[stage]) / double(pairs);
             if (stages.count[stage]) bar(svg, x, std::max(next, x + 1), top, 24, inks[stage], 0.85);
             x = next;
         }
@@ -115,7 +126,7 @@ Svg fig_02_05(const Options& options) {
         640, head + row * static_cast<double>(triangle_inputs().size()) + 54);
 
     draw_number_line(svg);
-    draw_who_decides(svg, options.seed);
+    draw_who_decides(svg, options);
     return svg;
 }
 
