@@ -74,11 +74,11 @@ first_failure() {
 # What a program did that ended with this exit code, 128 and the number of a signal.
 crash_in_words() {
     case $(($1 - 128)) in
-        4) echo 'comes where no code is: does a function with a result end without return?' ;;
-        6) echo 'is aborted: an assertion or a check of a container failed, or an exception was not caught' ;;
-        8) echo 'divides a whole number by zero' ;;
-        7 | 11) echo 'reads or writes memory that is not its own: is an index too large, a pointer null, or a recursion without end?' ;;
-        *) echo 'is ended by the system' ;;
+        4) echo 'it came where no code is. Does a function with a result end without return?' ;;
+        6) echo 'it was aborted. An assertion or a check of a container failed, or an exception was not caught.' ;;
+        8) echo 'it divided a whole number by zero.' ;;
+        7 | 11) echo 'it used memory that is not its own. Is an index too large, a pointer null, a recursion without end?' ;;
+        *) echo 'the system ended it.' ;;
     esac
 }
 
@@ -121,7 +121,7 @@ check_exercise() {
     elif grep -q 'bad_alloc' "$log/exercise.txt" "$log/exercise_own.txt"; then
         verdict='needs more than 2 GB of memory: does something grow without end?'
     elif grep -q 'fatal error condition' "$log/exercise.txt" || ((result > 128 && result < 160)); then
-        verdict="crashes: it $(crash_in_words "$result") (exit code $result)."
+        verdict="crashes (exit code $result): $(crash_in_words "$result")"
     elif ((result == 0)) || ! grep -q '^test cases\?: .* failed' "$log/exercise.txt"; then
         verdict='ends the program before the checks are done: does it call exit?'
     else
