@@ -18,7 +18,8 @@ inline NamedBy named_by(const Triangle& triangle, const Aabb& cell, const KdSpli
     const Aabb box = bounds(triangle);
     const float low = std::max(box.min[split.axis], cell.min[split.axis]);
     const float high = std::min(box.max[split.axis], cell.max[split.axis]);
-    const bool is_below = low<split.position, is_above = high> split.position;
+    const bool is_below = low < split.position;
+    const bool is_above = high > split.position;
     if (!is_below && !is_above) return {split.coplanar_below, !split.coplanar_below};
     return {is_below, is_above};
 }
