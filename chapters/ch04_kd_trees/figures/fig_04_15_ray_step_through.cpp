@@ -81,7 +81,8 @@ class Script {
             fmt::format("{} with {}: the plane {} = {} is met at t = {}, ", called(visit.at.node),
                         interval(enter, leave), "xy"[turn.split->axis],
                         svg_number(static_cast<double>(turn.split->position)), written_t(t));
-        const bool only_far = t<enter, only_near = t> leave;
+        const bool only_far = t < enter;
+        const bool only_near = t > leave;
         step.next = number_of(only_far ? far : near);
         if (only_far) {
             step.tells =
