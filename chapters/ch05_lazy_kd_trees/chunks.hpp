@@ -49,8 +49,17 @@ class Chunks {
             if (first + count > most) throw std::bad_alloc();
         } while (!end_.compare_exchange_weak(end, static_cast<std::uint32_t>(first + count),
                                              std::memory_order_relaxed));
-        if (count > 0 && first >= first_length_) make_later(static_cast<std::uint32_t>(first));
+        if (count > 0) make(static_cast<std::uint32_t>(first));
         return static_cast<std::uint32_t>(first);
+    }
+
+    /// Makes the chunk of an element that another array, of the same expected length, has added.
+    void make(std::uint32_t index) {
+        if (index < first_length_) return;
+        std::atomic<T*>& chunk = later_[std::bit_width(index)];
+        if (chunk.load(std::memory_order_acquire)) return;
+        const std::lock_guard guard(growing_);  // the one lock: each chunk is made once
+        if (!chunk.load()) chunk.store(new T[std::bit_floor(index)], std::memory_order_release);
     }
 
     Chunks(const Chunks&) = delete;
@@ -62,14 +71,6 @@ class Chunks {
   private:
     std::uint64_t end_of_chunk(std::uint64_t index) const {
         return index < first_length_ ? first_length_ : 2 * std::bit_floor(index);
-    }
-
-    /// The one lock: each chunk is made once.
-    void make_later(std::uint32_t index) {
-        std::atomic<T*>& chunk = later_[std::bit_width(index)];
-        if (chunk.load(std::memory_order_acquire)) return;
-        const std::lock_guard guard(growing_);
-        if (!chunk.load()) chunk.store(new T[std::bit_floor(index)], std::memory_order_release);
     }
 
     std::uint32_t first_length_;

@@ -113,7 +113,8 @@ class LazyKdNodes {
           config_(config),
           splitter_(polygons, config.eager()),
           words_(4 * polygons.size()),
-          references_(4 * polygons.size()),
+          references_(2 * polygons.size()),
+          copies_(2 * polygons.size()),
           observer_(std::move(observer)) {
         if (empty()) return;
         count_references(polygons.size());
@@ -147,6 +148,12 @@ class LazyKdNodes {
         const KdNode leaf = node(index);
         if (!leaf.is_leaf() || leaf.count() == 0) return {};
         return {&references_[leaf.first()], leaf.count()};
+    }
+    /// The same polygons, copied: what a ray tests one after the other lies together in memory.
+    std::span<const Simplex<D>> copies(std::uint32_t index) const {
+        const KdNode leaf = node(index);
+        if (!leaf.is_leaf() || leaf.count() == 0) return {};
+        return {&copies_[leaf.first()], leaf.count()};
     }
 
     /// Enters every node.
@@ -262,10 +269,18 @@ class LazyKdNodes {
 
     KdNode leaf(const Task& task) const {
         const auto count = static_cast<std::uint32_t>(task.references.size());
-        std::uint32_t first = references_.add(count, KdNode::largest);
-        const KdNode node = KdNode::leaf(first, count);
-        for (const auto& reference : task.references) references_[first++] = reference.polygon;
-        return node;
+        const std::uint32_t first = add_list(count);
+        for (std::uint32_t i = 0; i < count; ++i) name(first + i, task.references[i].polygon);
+        return KdNode::leaf(first, count);
+    }
+    std::uint32_t add_list(std::size_t count) const {
+        const std::uint32_t first = references_.add(count, KdNode::largest);
+        if (count > 0) copies_.make(first);
+        return first;
+    }
+    void name(std::uint32_t place, std::uint32_t polygon) const {
+        references_[place] = polygon;
+        copies_[place] = polygons_[polygon];
     }
 
     // [all_below]
@@ -276,7 +291,7 @@ class LazyKdNodes {
         const KdNodes<D> part = builder.run(task, observer_);
         // First, because places that are added are not given back.
         count_references(builder.references() - size);
-        const std::uint32_t named = references_.add(part.references.size(), KdNode::largest);
+        const std::uint32_t named = add_list(part.references.size());
         const std::uint32_t place = words_.add(part.nodes.size() - 2, KdNode::largest) - 2;
         const auto moved = [&](const KdNode& node) {
             return node.is_leaf()
@@ -284,7 +299,7 @@ class LazyKdNodes {
                        : KdNode::inner({node.axis(), node.position()}, place + node.below());
         };
         for (std::uint32_t i = 0; i < part.references.size(); ++i)
-            references_[named + i] = part.references[i];
+            name(named + i, part.references[i]);
         for (std::uint32_t i = 2; i < part.nodes.size(); ++i)
             word(place + i).store(moved(part.nodes[i]).bits(), std::memory_order_relaxed);
         return moved(part.nodes[0]);
@@ -329,6 +344,7 @@ class LazyKdNodes {
     Splitter splitter_;
     mutable Chunks<std::uint64_t> words_;       ///< the nodes, by atomic access alone
     mutable Chunks<std::uint32_t> references_;  ///< polygons, by leaf
+    mutable Chunks<Simplex<D>> copies_;         ///< of them, at the same places
     mutable std::atomic<std::size_t> references_counted_{0};
     [[no_unique_address]] mutable Observer observer_;
 };
@@ -352,8 +368,8 @@ LazyKdCounts LazyKdNodes<D, Observer>::counts() const {
             counts.waiting_bytes += list.size() * sizeof(SplitEvent);
     });
     counts.bytes = sizeof *this + (counts.standing() + counts.waiting) * sizeof(KdNode) +
-                   counts.references * sizeof(std::uint32_t) + counts.waiting * sizeof(Waiting) +
-                   counts.waiting_bytes;
+                   counts.references * (sizeof(std::uint32_t) + sizeof(Simplex<D>)) +
+                   counts.waiting * sizeof(Waiting) + counts.waiting_bytes;
     return counts;
 }
 

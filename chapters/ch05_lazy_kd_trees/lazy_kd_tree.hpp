@@ -76,11 +76,13 @@ class WatchedLazyKdTree {
         Mailbox mailbox(mailboxes_);
         double limit = infinity;
         walk_cells(*nodes_, ray, counts, [&](std::uint32_t node) {
-            for (const std::uint32_t triangle : nodes_->own(node)) {
-                if (mailbox.remembers(triangle)) continue;
+            const auto names = nodes_->own(node);
+            const auto copies = nodes_->copies(node);
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                if (mailbox.remembers(names[i])) continue;
                 counts.test_triangle();
-                if (auto hit = Test::intersect(ray, triangles_[triangle])) {
-                    hit->triangle = triangle;
+                if (auto hit = Test::intersect(ray, copies[i])) {
+                    hit->triangle = names[i];
                     limit = found(*hit);
                 }
             }
@@ -89,7 +91,7 @@ class WatchedLazyKdTree {
     }
     // [search]
 
-    std::vector<Triangle> triangles_;  ///< copies
+    std::vector<Triangle> triangles_;  ///< of which nodes are made
     std::unique_ptr<const Nodes> nodes_;
     SahCosts costs_;
     bool mailboxes_ = true;

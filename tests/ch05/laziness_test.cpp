@@ -251,7 +251,8 @@ TEST_CASE("lists are given back as nodes stand") {
     const LazyKdCounts last = lazy.counts();
     CHECK(last.waiting == 0);
     CHECK(last.waiting_bytes == 0);
-    CHECK(last.bytes < first.bytes);
+    CHECK(last.bytes == sizeof lazy + last.standing() * sizeof(KdNode) +
+                            last.references * (sizeof(std::uint32_t) + sizeof(Triangle)));
     fmt::print("  {} bytes with the root alone, {} in the end\n", first.bytes, last.bytes);
 }
 
@@ -265,10 +266,12 @@ TEST_CASE("what stands holds no list: a few allocations, however many nodes; in 
             const std::ptrdiff_t untouched = living();
             for (const Ray& ray : some_rays(triangles, 2)) closest_hit(lazy, ray);
             const auto waiting = std::ptrdiff_t(lazy.nodes().counts().waiting);
-            CHECK(waiting > 10);
-            CHECK(living() <= untouched + 5 * waiting + 3);  // a task has four lists
+            constexpr std::ptrdiff_t later_chunks = 9;
+            CHECK(waiting > 0);
+            CHECK(living() <= untouched + 5 * waiting + later_chunks);  // a task has four lists
             lazy.build_all();
-            CHECK(living() < untouched + 3);  // later chunks, in place of the root's task
+            CHECK(living() <= untouched + later_chunks);
+            CHECK(lazy.nodes().counts().standing() > sized(2'000u, 200u));
         }
         CHECK(living() == 0);
         // Nor does a tree keep anything that dies young.
