@@ -71,18 +71,22 @@ int run(int argc, char** argv) {
     if (options.figure) return write_figures(this_chapter.figures, options);
     check_results_writable(options);
     const bool times = !options.small && !options.counts;
+    const bool all = !options.counts || !options.quick;
 
     draw_picture(options);
     Measurements measured;
     print_views(measured.views = measured_once<measure_views>(options), times);
     print_reach(measured.reach = measured_once<measure_reach>(options), times);
     print_memory(measured.memory = measured_once<measure_memory>(options));
-    print_lists(measured.lists = measure_lists(options), times);
-    print_geometry(measured.geometry = measure_geometry(options), times);
-    print_first_pictures(measured.first_pictures = measured_once<measure_first_pictures>(options),
-                         times);
+    if (all) {
+        print_lists(measured.lists = measure_lists(options), times);
+        print_geometry(measured.geometry = measure_geometry(options), times);
+        print_first_pictures(
+            measured.first_pictures = measured_once<measure_first_pictures>(options), times);
+    }
     const std::uint64_t wrong = wrong_answers(measured);
-    quoted(measured, times).write(options.out, provenance(std::string(this_chapter.name), options));
+    quoted(measured, all, times)
+        .write(options.out, provenance(std::string(this_chapter.name), options));
     if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);
     return finish(options, answer_claims(measured), wrong);

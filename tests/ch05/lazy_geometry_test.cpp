@@ -6,6 +6,7 @@
 #include "chapters/ch05_lazy_kd_trees/subdivided_mesh.hpp"
 #include "common/parallel.hpp"
 #include "common/random_rays.hpp"
+#include "common/scene.hpp"
 #include "common/scenes/shapes.hpp"
 #include "tests/catch.hpp"
 
@@ -61,6 +62,16 @@ struct Squares {
         for (const Triangle& triangle : triangles(patch)) box.extend(space::bounds(triangle));
         return box;
     }
+};
+
+/// Each triangle a patch: their boxes overlap, more than planes can part.
+struct TriangleSoup {
+    std::vector<Triangle> soup;
+
+    std::uint32_t patches() const { return std::uint32_t(soup.size()); }
+    std::uint32_t first_triangle(std::uint32_t patch) const { return patch; }
+    std::vector<Triangle> triangles(std::uint32_t patch) const { return {soup[patch]}; }
+    Aabb bounds(std::uint32_t patch) const { return space::bounds(soup[patch]); }
 };
 
 /// Within the box of all, from around it, and aimed at corners of triangles and middles of edges.
@@ -153,7 +164,7 @@ TEST_CASE("the cells of a field are its patches', row by row, two triangles each
     for (const Triangle& triangle : patch) CHECK(normal(triangle).y == 1.0);
 }
 
-TEST_CASE("the bounds of a field's patch hold its triangles, and are no wider than short waves") {
+TEST_CASE("the bounds of a field's patch hold its triangles, and are little wider") {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Heightfield source = field(128, 16, seed);
         require_true_bounds(source);
@@ -262,6 +273,22 @@ TEST_CASE("a patch is made when a ray meets its box before its nearest hit, and 
     CHECK(lazy.made().triangles == 4);
     CHECK(lazy.is_made(0));
     CHECK(!lazy.is_made(2));
+}
+
+TEST_CASE("a patch that only shares a cell with the ray is not made") {
+    const TriangleSoup source{.soup = make_scene("soup:300", 5).mesh.triangles()};
+    std::size_t made = 0;
+    for (const Ray& ray : rays_from_around(source.soup, 100, 6)) {
+        const auto lazy = LazyGeometry<TriangleSoup>::build(source);
+        closest_hit(lazy, ray);
+        for (std::uint32_t patch = 0; patch < source.patches(); ++patch) {
+            if (!lazy.is_made(patch)) continue;
+            ++made;
+            CAPTURE(patch);
+            REQUIRE(part_in(source.bounds(patch), ray, KdRay<3>(ray)));
+        }
+    }
+    CHECK(made == 272);  // of 300 patches by each of 100 rays; more if hits did not shorten rays
 }
 
 TEST_CASE("from many threads each patch is made once, and the answers are the same") {

@@ -6,7 +6,7 @@ namespace space::ch05 {
 namespace {
 
 /// An error of zero has no place on a logarithmic axis: it is drawn here, below all that are not.
-constexpr double no_error = 1e-9;
+constexpr double no_error = 1e-5;
 
 }  // namespace
 

@@ -30,7 +30,8 @@ void print_lists(const std::vector<ListPoint>& lists, bool times);
 void print_geometry(const std::vector<GeometryPoint>& geometry, bool times);
 void print_first_pictures(const std::vector<FirstPicture>& pictures, bool times);
 
-/// What the text quotes; times where there are any.
-Numbers quoted(const Measurements& measured, bool times);
+/// What the text quotes; times where there are any; if not `all` has been measured, no table that
+/// grows with what has.
+Numbers quoted(const Measurements& measured, bool all, bool times);
 
 }  // namespace space::ch05

@@ -32,18 +32,27 @@ std::string megabytes(double bytes) {
 
 Table views_table(const std::vector<ViewPoint>& views) {
     Table table({"scene", "view", "triangles", "nodes, eager", "lazy, one by one", "share",
-                 "in the report", "lazy", "tests per pixel, eager", "lazy", "hits, eager", "lazy",
-                 "other pixels"});
+                 "in the report", "lazy"});
     for (const ViewPoint& p : views) {
         const std::optional<PublishedRow> row = published(p);
+        table.row({p.scene, p.view, with_commas(p.triangles), with_commas(p.eager.nodes),
+                   with_commas(p.nodes_singly), share_of(p.node_share()),
+                   row ? share_of(row->node_share()) : "empty", with_commas(p.lazy.nodes)});
+    }
+    return table;
+}
+
+/// What rays do in both trees.
+Table view_tests_table(const std::vector<ViewPoint>& views) {
+    Table table(
+        {"scene", "view", "tests per pixel, eager", "lazy", "hits, eager", "lazy", "other pixels"});
+    for (const ViewPoint& p : views) {
         const auto per_pixel = [&](const Drawn& drawn) {
             return fixed(double(drawn.tests) / double(p.rays), 2);
         };
-        table.row({p.scene, p.view, with_commas(p.triangles), with_commas(p.eager.nodes),
-                   with_commas(p.nodes_singly), share_of(p.node_share()),
-                   row ? share_of(row->node_share()) : "empty", with_commas(p.lazy.nodes),
-                   per_pixel(p.eager), per_pixel(p.lazy), with_commas(p.eager.hits),
-                   with_commas(p.lazy.hits), with_commas(p.other_pixels)});
+        table.row({p.scene, p.view, per_pixel(p.eager), per_pixel(p.lazy),
+                   with_commas(p.eager.hits), with_commas(p.lazy.hits),
+                   with_commas(p.other_pixels)});
     }
     return table;
 }
@@ -172,6 +181,7 @@ Table first_pictures_table(const std::vector<FirstPicture>& pictures, bool times
 void print_views(const std::vector<ViewPoint>& views, bool times) {
     print_heading("Johnston06's table, with other scenes: nodes and tests");
     views_table(views).print();
+    view_tests_table(views).print();
     if (!times) return;
     print_heading("and times, on one thread");
     view_times_table(views).print();
@@ -199,8 +209,11 @@ void print_first_pictures(const std::vector<FirstPicture>& pictures, bool times)
 
 namespace {
 
-void quote_views(const std::vector<ViewPoint>& views, bool times, Numbers& numbers) {
-    numbers.count_table("views", views_table(views));
+void quote_views(const std::vector<ViewPoint>& views, bool all, bool times, Numbers& numbers) {
+    if (all) {
+        numbers.count_table("views", views_table(views));
+        numbers.count_table("view_tests", view_tests_table(views));
+    }
     numbers.count_table("published", published_table());
     for (const ViewPoint& p : views) {
         std::string name = p.scene + "_" + p.view;
@@ -225,20 +238,21 @@ void quote_views(const std::vector<ViewPoint>& views, bool times, Numbers& numbe
 
 }  // namespace
 
-Numbers quoted(const Measurements& measured, bool times) {
+Numbers quoted(const Measurements& measured, bool all, bool times) {
     Numbers numbers;
-    quote_views(measured.views, times, numbers);
+    quote_views(measured.views, all, times, numbers);
     numbers.count_table("reach", reach_table(measured.reach, false));
     numbers.count_table("memory", memory_table(measured.memory));
+    if (!all) return numbers;
+    numbers.count_table("lists", lists_table(measured.lists, false));
     numbers.count_table("geometry", geometry_table(measured.geometry, false));
     numbers.count_table("first_pictures", first_pictures_table(measured.first_pictures, false));
-    numbers.count_table("lists", lists_table(measured.lists, false));
     if (!times) return numbers;
     numbers.time_table("reach_times", reach_table(measured.reach, true));
     numbers.time_table("lists_times", lists_table(measured.lists, true));
     numbers.time_table("geometry_times", geometry_table(measured.geometry, true));
-    const ReachPoint& all = measured.reach.back();
-    numbers.time("everything", all.time_share(), fixed(all.time_share(), 2));
+    const ReachPoint& everything = measured.reach.back();
+    numbers.time("everything", everything.time_share(), fixed(everything.time_share(), 2));
     const ListPoint& large = measured.lists.back();
     numbers.time("scattered", large.scattered_ns / large.placed_ns,
                  fixed(large.scattered_ns / large.placed_ns, 1));
