@@ -38,9 +38,9 @@ Sizes sizes(Amount amount) {
                     .volumes = 1'000'000,
                     .root_stride = 1,
                     .root_samples = 20'000,
-                    .boxes = 10'000'000,
+                    .boxes = 2'000'000,
                     .spheres = 200'000,
-                    .bounces = 1'000'000,
+                    .bounces = 200'000,
                     .rounds = 51};
     }
 }

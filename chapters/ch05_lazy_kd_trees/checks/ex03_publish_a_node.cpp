@@ -116,12 +116,18 @@ struct Maker {
     std::uint64_t operator()() { return ++times, 77; }
 };
 
+/// Asked outside of CHECK, where Catch2 3 would take the word's FAIL for a throw of the answer's.
+void check_node(PlayedWord& word, Maker& maker, std::uint64_t expected) {
+    const std::uint64_t node = node_at(word, std::ref(maker));
+    CHECK(node == expected);
+}
+
 }  // namespace
 
 TEST_CASE("a node that stands is returned, after one load that acquires") {
     PlayedWord word(42);
     Maker maker;
-    CHECK(node_at(word, std::ref(maker)) == 42);
+    check_node(word, maker, 42);
     CHECK(maker.times == 0);
     CHECK(word.steps == 1);
     CHECK(word.loads == 1);
@@ -132,9 +138,9 @@ TEST_CASE("a node that stands is returned, after one load that acquires") {
 TEST_CASE("a node that waits is made once, and stands for those who come later") {
     PlayedWord word(waiting_word);
     Maker maker;
-    CHECK(node_at(word, std::ref(maker)) == 77);
+    check_node(word, maker, 77);
     CHECK(word.value == 77);
-    CHECK(node_at(word, std::ref(maker)) == 77);
+    check_node(word, maker, 77);
     CHECK(maker.times == 1);
 }
 
@@ -173,7 +179,7 @@ TEST_CASE("if another has made it meanwhile, its value counts") {
     word.others = [&](std::size_t now) {
         if (now == 1) word.value = 99;
     };
-    CHECK(node_at(word, std::ref(maker)) == 99);
+    check_node(word, maker, 99);
     CHECK(maker.times == 0);
     CHECK(word.read_acquired);
 }
@@ -184,7 +190,7 @@ TEST_CASE("while another makes it one waits, and does not ask again and again") 
     word.others = [&](std::size_t now) {
         if (now == 40) word.value = 99;
     };
-    CHECK(node_at(word, std::ref(maker)) == 99);
+    check_node(word, maker, 99);
     CHECK(maker.times == 0);
     CHECK(word.waits >= 1);
     CHECK(word.loads <= 3);
@@ -201,12 +207,17 @@ TEST_CASE("what make() has written is released with the value, and all who wait 
 
 TEST_CASE("if make() throws, the node waits again, all who wait are told, and the caller knows") {
     PlayedWord word(waiting_word);
-    CHECK_THROWS_AS(node_at(word, []() -> std::uint64_t { throw std::runtime_error("no memory"); }),
-                    std::runtime_error);
+    bool caller_knows = false;
+    try {
+        node_at(word, []() -> std::uint64_t { throw std::runtime_error("no memory"); });
+    } catch (const std::runtime_error&) {
+        caller_knows = true;
+    }
+    CHECK(caller_knows);
     CHECK(word.value == waiting_word);
     CHECK(word.is_told);
     Maker maker;
-    CHECK(node_at(word, std::ref(maker)) == 77);
+    check_node(word, maker, 77);
     CHECK(maker.times == 1);
 }
 
@@ -216,7 +227,7 @@ TEST_CASE("if it throws for another, whoever waited makes the node") {
     word.others = [&](std::size_t now) {
         if (now == 5) word.value = waiting_word;
     };
-    CHECK(node_at(word, std::ref(maker)) == 77);
+    check_node(word, maker, 77);
     CHECK(maker.times == 1);
     CHECK(word.value == 77);
 }
