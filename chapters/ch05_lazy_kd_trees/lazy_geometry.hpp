@@ -7,8 +7,10 @@
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
 #include "chapters/ch05_lazy_kd_trees/lazy_kd_tree.hpp"
 #include "common/accelerator.hpp"
+#include "common/limit_error.hpp"
 
 #include <atomic>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +50,7 @@ class LazyGeometry {
         std::size_t bytes = 0;  ///< of all that is held
     };
 
+    /// @throws LimitError where triangles have numbers beyond 2^32
     static LazyGeometry build(Source source, const Config& config = {}) {
         LazyGeometry geometry(std::move(source), config);
         std::vector<Triangle> diagonals;  // what has the same bounding box
@@ -84,7 +87,7 @@ class LazyGeometry {
         });
     }
 
-    /// While other threads trace rays, what they are making may or may not be counted.
+    /// Not while other threads trace rays: the patches' trees are looked through.
     Made made() const {
         Made made{.bytes = sizeof *this + boxes_.size() * (sizeof(Aabb) + sizeof(Slot)) +
                            cells_.nodes.size() * sizeof(KdNode) +
@@ -121,24 +124,29 @@ class LazyGeometry {
 
     LazyGeometry(Source source, const Config& config)
         : source_(std::move(source)), config_(config) {
-        for (std::uint32_t patch = 0; patch < source_.patches(); ++patch)
+        for (std::uint32_t patch = 0; patch < source_.patches(); ++patch) {
+            if (patch > 0 && source_.first_triangle(patch) < source_.first_triangle(patch - 1))
+                throw LimitError("lazy geometry: more triangles than 32 bits can number");
             boxes_.push_back(source_.bounds(patch));
+        }
         slots_ = std::make_unique<Slot[]>(boxes_.size());
     }
 
     // [for_each_patch]
     /// Calls visit(patch) for each patch whose box the ray meets, cell by cell; it returns the t
-    /// beyond which nothing matters any more. A patch that only shares a cell with the ray is not
-    /// asked for: it would be made.
+    /// beyond which nothing matters any more (NaN: nothing at all). A patch that only shares a cell
+    /// with the ray is not asked for: it would be made.
     template <class Counts, class Visit>
     void for_each_patch(const Ray& rest, Counts& counts, const Visit& visit) const {
         Mailbox mailbox(true);
         const KdRay<3> prepared(rest);
         double limit = infinity;
         walk_cells(cells_, Ray(rest), counts, [&](std::uint32_t cell) {
-            for (const std::uint32_t patch : cells_.own(cell))
+            for (const std::uint32_t patch : cells_.own(cell)) {
+                if (std::isnan(limit)) break;
                 if (part_in(boxes_[patch], rest, prepared) && !mailbox.remembers(patch))
                     limit = visit(patch);
+            }
             return limit;
         });
     }

@@ -2,8 +2,10 @@
 #include "chapters/ch05_lazy_kd_trees/lazy_geometry.hpp"
 
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch05_lazy_kd_trees/heightfield.hpp"
 #include "chapters/ch05_lazy_kd_trees/subdivided_mesh.hpp"
+#include "common/limit_error.hpp"
 #include "common/parallel.hpp"
 #include "common/random_rays.hpp"
 #include "common/scene.hpp"
@@ -289,6 +291,30 @@ TEST_CASE("a patch that only shares a cell with the ray is not made") {
         }
     }
     CHECK(made == 272);  // of 300 patches by each of 100 rays; more if hits did not shorten rays
+}
+
+TEST_CASE("whoever asks for any hit makes no patch after the first one that is hit") {
+    const TriangleSoup source{.soup = make_scene("soup:300", 5).mesh.triangles()};
+    std::size_t hits = 0;
+    for (const Ray& ray : rays_from_around(source.soup, 100, 6)) {
+        const auto lazy = LazyGeometry<TriangleSoup>::build(source);
+        std::size_t hit_patches = 0;
+        const bool is_hit = any_hit(lazy, ray);
+        for (std::uint32_t patch = 0; patch < source.patches(); ++patch)
+            hit_patches += lazy.is_made(patch) && FilteredExact::intersect(ray, source.soup[patch]);
+        REQUIRE(hit_patches == std::size_t(is_hit));
+        hits += hit_patches;
+    }
+    CHECK(hits > 20);
+}
+
+TEST_CASE("more triangles than 32 bits can number are refused, and as many are not") {
+    const auto build = [](std::uint32_t cells) {
+        return LazyGeometry<Heightfield>::build(
+            Heightfield({.cells = cells, .patch_cells = 1'024, .shortest_wave = 1'024}));
+    };
+    CHECK_NOTHROW(build(1u << 15));
+    CHECK_THROWS_AS(build(1u << 16), LimitError);
 }
 
 TEST_CASE("from many threads each patch is made once, and the answers are the same") {
