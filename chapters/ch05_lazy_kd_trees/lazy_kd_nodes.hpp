@@ -248,7 +248,8 @@ class LazyKdNodes {
     }
 
     // [step]
-    /// Chapter 4's step. All that may throw comes before `divide` takes from the task.
+    /// Chapter 4's step. All that may throw comes before `divide` takes from the task; where it
+    /// takes, nothing is shared, and there is nothing to count.
     KdNode step(std::uint32_t index, Waiting& waiting) const {
         Task& task = waiting.task;
         const std::optional<KdSplit> split = splitter_.choose(task, observer_);
@@ -289,10 +290,16 @@ class LazyKdNodes {
         const std::size_t size = task.references.size();
         KdBuilder<D> builder(splitter_, config_.eager());
         const KdNodes<D> part = builder.run(task, observer_);
-        // First, because places that are added are not given back.
-        count_references(builder.references() - size);
-        const std::uint32_t named = add_list(part.references.size());
-        const std::uint32_t place = words_.add(part.nodes.size() - 2, KdNode::largest) - 2;
+        const std::size_t shared = builder.references() - size;
+        count_references(shared);  // first, because places that are added are not given back
+        std::uint32_t named, place;
+        try {
+            named = add_list(part.references.size());
+            place = words_.add(part.nodes.size() - 2, KdNode::largest) - 2;
+        } catch (...) {
+            references_counted_ -= shared;
+            throw;
+        }
         const auto moved = [&](const KdNode& node) {
             return node.is_leaf()
                        ? KdNode::leaf(named + node.first(), node.count())
@@ -306,12 +313,16 @@ class LazyKdNodes {
     }
     // [all_below]
 
-    /// Of all threads together.
+    /// Of all threads together, and never more than may be, not for a moment: else one thread's
+    /// failure would take the room of another. So to count none always works.
     void count_references(std::size_t more) const {
-        if (references_counted_.fetch_add(more) + more <= config_.max_references) return;
-        references_counted_ -= more;
-        throw LimitError("lazy k-d tree: more than " + std::to_string(config_.max_references) +
-                         " references (max_references)");
+        std::size_t counted = references_counted_.load();
+        do {
+            if (more > config_.max_references - counted)
+                throw LimitError("lazy k-d tree: more than " +
+                                 std::to_string(config_.max_references) +
+                                 " references (max_references)");
+        } while (!references_counted_.compare_exchange_weak(counted, counted + more));
     }
 
     template <class Visit>

@@ -16,13 +16,14 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <new>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace space {
 namespace test {
-extern std::atomic<std::ptrdiff_t> living_allocations;  // allocations.cpp
+extern std::atomic<std::ptrdiff_t> living_allocations, allocations_left;  // allocations.cpp
 }
 namespace {
 
@@ -277,6 +278,33 @@ TEST_CASE("what stands holds no list: a few allocations, however many nodes; in 
         // Nor does a tree keep anything that dies young.
         { const auto lazy = LazyKdTree<>::build(triangles, {.at_once = at_once}); }
         CHECK(living() == 0);
+    }
+}
+
+TEST_CASE("memory that ends at any moment leaves the node as it was, and its share of the limit") {
+    const auto triangles = scenes::soup(20, 0.5f, 15);  // more references than a first chunk has
+    const KdSplitter<3> splitter(triangles, {});
+    KdBuilder<3> builder(splitter, {});
+    NoObserver none;
+    const auto eager = builder.run(splitter.root(), none);
+    for (const std::size_t at_once : {0, 10, 20}) {
+        CAPTURE(at_once);
+        const LazyKdNodes<3> lazy(triangles,
+                                  {.max_references = builder.references(), .at_once = at_once});
+        int failures = 0;
+        for (bool is_done = false; !is_done; ++failures) {
+            test::allocations_left = failures;
+            try {
+                lazy.build_all();
+                is_done = true;
+            } catch (const std::bad_alloc&) {
+            }
+            test::allocations_left = -1;
+        }
+        CHECK(failures > 20);
+        const SameTree same(eager, lazy);
+        CHECK(same.fault() == "");
+        CHECK(same.waiting() == 0);
     }
 }
 
