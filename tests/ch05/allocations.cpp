@@ -19,6 +19,13 @@ void* operator new(std::size_t size) {
     ++space::test::living_allocations;
     return memory;
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* memory) noexcept {
     if (memory) --space::test::living_allocations;
     std::free(memory);
