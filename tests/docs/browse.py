@@ -218,6 +218,15 @@ def look_at_paper(name):
         fault(name, "is not dark again after printing")
 
 
+def look_at_listings(name):
+    """On laptops and wider screens every line of a chapter's code can be read without scrolling."""
+    for width in (1100, 1280, 1450, 1920):
+        window(width)
+        cut = run("return [...document.querySelectorAll('.textblock .fragment')].filter((f) => f.scrollWidth > f.clientWidth).length")
+        if cut:
+            fault(name, f"at {width} px {cut} listings are cut")
+
+
 for name in book + samples:
     window(390, "dark")
     open_page(name)
@@ -228,6 +237,8 @@ for name in book + samples:
     if not wait("document.documentElement.classList.contains('light-mode')", 5):
         fault(name, "does not follow a system that turns light")
     look_at_page(name, 1280, "light")
+    if name in book and name.startswith("ch"):
+        look_at_listings(name)
     for raw in run(raw_formulas):
         fault(name, f"a formula is left raw: {raw}")
     for image in run("return [...document.images].filter(i => !i.complete || !i.naturalWidth).map(i => i.src)"):
@@ -235,16 +246,6 @@ for name in book + samples:
     formulas += run("return document.querySelectorAll('.MathJax_SVG svg').length")
     drawings += run("return document.querySelectorAll('svg.book-figure').length")
     look_at_logs(name)
-
-# On laptops and wider screens every line of a chapter's code can be read without scrolling.
-for name in (name for name in book if name.startswith("ch")):
-    window(1280)
-    open_page(name)
-    for width in (1100, 1280, 1450, 1920):
-        window(width)
-        cut = run("return [...document.querySelectorAll('.textblock .fragment')].filter((f) => f.scrollWidth > f.clientWidth).length")
-        if cut:
-            fault(name, f"at {width} px {cut} listings are cut")
 
 # The switch between light and dark: the page and its drawings change, and change back, whatever the system prefers.
 colours = """
