@@ -47,9 +47,9 @@ bool is_traced(const AdaptivePicture& picture, int x, int y) {
 FlatPicture pole(int left, int width) {
     return {64, 64, [=](int x, int) { return std::uint32_t(x >= left && x < left + width); }};
 }
-/// A wire, a pixel wide, that falls from the left border to the right one.
+/// A wire, a pixel wide, that falls from the left border to the right one, through (16, 16).
 FlatPicture wire() {
-    return {64, 64, [](int x, int y) { return std::uint32_t(y == 5 + (2 * x) / 3); }};
+    return {64, 64, [](int x, int y) { return std::uint32_t(y == 6 + (2 * x) / 3); }};
 }
 FlatPicture disc(double x0, double y0, double radius, int size) {
     return {size, size,
