@@ -8,6 +8,7 @@
 #include "chapters/ch04_kd_trees/kd_builder.hpp"
 #include "chapters/ch04_kd_trees/kd_config.hpp"
 #include "chapters/ch04_kd_trees/kd_nodes.hpp"
+#include "chapters/ch04_kd_trees/placed_triangles.hpp"
 #include "common/accelerator.hpp"
 #include "common/geometry.hpp"
 #include "common/observer.hpp"
@@ -40,8 +41,8 @@ struct KdRay {
     /// and of the product, in double, where floats can't make them over- or underflow: off by at
     /// most gamma(3) |t|, and of the right sign. Along the plane it is +-infinity, as if the plane
     /// stood before or behind all of the ray; within the plane it is not a number.
-    double distance(int axis, float position) const {
-        return (double{position} - origin[axis]) * inverse[axis];
+    double distance(int axis, double position) const {
+        return (position - origin[axis]) * inverse[axis];
     }
 };
 
@@ -172,7 +173,7 @@ class KdTree {
                         Observer&& observer = {}) {
         KdTree tree;
         tree.nodes_ = KdBuilder<3>::build(triangles, config, observer);
-        tree.place(triangles);
+        tree.placed_ = PlacedTriangles::of(triangles, tree.nodes_.references);
         tree.costs_ = config.costs;
         tree.mailboxes_ = config.mailboxes;
         return tree;
@@ -205,9 +206,7 @@ class KdTree {
                 .references = nodes_.references.size(),
                 .bytes = sizeof *this + nodes_.nodes.size() * sizeof(KdNode) +
                          nodes_.references.size() * sizeof(std::uint32_t) +
-                         nodes_.kept.size() * sizeof(KdNodes<3>::Range) +
-                         places_.size() * sizeof(std::uint32_t) +
-                         triangles_.size() * sizeof(Triangle),
+                         nodes_.kept.size() * sizeof(KdNodes<3>::Range) + placed_.bytes(),
                 .sah_cost = whole > 0.0 ? std::optional(cost / whole) : std::nullopt};
     }
 
@@ -222,9 +221,10 @@ class KdTree {
         walk_cells(nodes_, ray, counts, [&](std::uint32_t node) {
             const auto [first, count] = nodes_.own_range(node);
             for (std::uint32_t i = first; i < first + count; ++i) {
-                if (mailbox.remembers(places_[i])) continue;
+                const std::uint32_t place = placed_.places[i];
+                if (mailbox.remembers(place)) continue;
                 counts.test_triangle();
-                if (auto hit = Test::intersect(ray, triangles_[places_[i]])) {
+                if (auto hit = Test::intersect(ray, placed_.triangles[place])) {
                     hit->triangle = nodes_.references[i];
                     limit = found(*hit);
                 }
@@ -234,25 +234,8 @@ class KdTree {
     }
     // [search]
 
-    // [place]
-    /// Copies the triangles in the order in which they are first named: what a ray meets one after
-    /// the other lies together in memory.
-    void place(std::span<const Triangle> triangles) {
-        constexpr std::uint32_t nowhere = ~0u;
-        std::vector<std::uint32_t> place_of(triangles.size(), nowhere);
-        for (const std::uint32_t triangle : nodes_.references) {
-            if (place_of[triangle] == nowhere) {
-                place_of[triangle] = static_cast<std::uint32_t>(triangles_.size());
-                triangles_.push_back(triangles[triangle]);
-            }
-            places_.push_back(place_of[triangle]);
-        }
-    }
-    // [place]
-
     KdNodes<3> nodes_;
-    std::vector<Triangle> triangles_;    ///< copies
-    std::vector<std::uint32_t> places_;  ///< of the nodes' references, in these
+    PlacedTriangles placed_;
     SahCosts costs_;
     bool mailboxes_ = true;
 };

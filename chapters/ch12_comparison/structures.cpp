@@ -26,6 +26,7 @@ std::vector<Structure> ch01_structures();
 std::vector<Structure> ch03_structures();
 std::vector<Structure> ch04_structures();
 std::vector<Structure> ch05_structures();
+std::vector<Structure> ch06_structures();
 
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all = joined({
@@ -33,6 +34,7 @@ const std::vector<Structure>& structures() {
         {"chapter 3", ch03_structures()},
         {"chapter 4", ch04_structures()},
         {"chapter 5", ch05_structures()},
+        {"chapter 6", ch06_structures()},
     });
     return all;
 }
