@@ -88,10 +88,11 @@ TEST_CASE("a difference as large as the threshold is none") {
     CHECK(must_be_split(picture, cell, std::nextafter(0.25f, 0.0f)));
 }
 
-TEST_CASE("samples are compared with each other, not all with one of them, nor with their mean") {
+TEST_CASE("samples are compared each with each, not all with one of them, nor with the last one") {
     Drawing picture = even();
-    picture.put(8, 8, grey_but(0, 0.375f));
-    picture.put(4, 12, grey_but(0, 0.625f));
+    picture.put(8, 8, grey_but(0, 0.375f)).put(4, 12, grey_but(0, 0.625f));
+    CHECK(must_be_split(picture, cell, 0.1875f));
+    picture.put(4, 8, grey_but(0, 0.375f)).put(8, 8, grey);
     CHECK(must_be_split(picture, cell, 0.1875f));
 }
 
@@ -116,7 +117,8 @@ TEST_CASE("a cell of one pixel is never split") {
     Drawing picture(16, 16);
     picture.corners({4, 8, 1}, grey).put(5, 9, of_surface(1));
     CHECK_FALSE(must_be_split(picture, {4, 8, 1}, 0.0f));
-    CHECK(must_be_split(picture, {4, 8, 2}, 0.0f));
+    CHECK(must_be_split(Drawing(16, 16).corners({4, 8, 2}, grey).put(6, 10, of_surface(1)),
+                        {4, 8, 2}, 0.0f));
 }
 
 TEST_CASE("a sample in the cell or on its border counts, whoever has asked for it") {

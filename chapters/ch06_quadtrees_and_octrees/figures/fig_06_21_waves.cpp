@@ -75,7 +75,7 @@ Svg fig_06_21(const Options&) {
             2 * left + side * width, 2 * top + side * height);
     Waves seen;
     const AdaptivePicture picture =
-        adaptive_picture(width, height, {.first_cell = 8}, sample_at, seen);
+        adaptive_picture(width, height, {.threshold = 24, .first_cell = 8}, sample_at, seen);
     const std::size_t steps = seen.waves.size() + 2;
     Image full(width, height);
     std::size_t wrong = 0;

@@ -18,8 +18,8 @@ Double3 on_wire(double height, double x) {
 
 void add_bird(Scene& scene, const Double3& at) {
     const Color slate = srgb(0x3B4252);
-    add(scene, ball(at, 0.11, 4), slate);
-    add(scene, ball(at + Double3{0.09, 0.09, 0.0}, 0.06, 3), slate);
+    add(scene, ball(at, 0.13, 4), slate);
+    add(scene, ball(at + Double3{0.11, 0.11, 0.0}, 0.08, 3), slate);
 }
 
 /// Two posts, three wires, birds on them, and some in the air.
@@ -28,22 +28,23 @@ Scene wires() {
     add(scene, parallelogram({-30, -2.2, 20}, {60, 0, 0}, {0, 0, -60}), srgb(0x8FA36B));
     const Color wood = srgb(0x7A5A3F);
     for (const double x : {-4.2, 4.2}) {
-        add(scene, box({x - 0.12, -2.2, -0.12}, {x + 0.12, 2.3, 0.12}), wood);
-        add(scene, box({x - 0.5, 1.9, -0.08}, {x + 0.5, 2.0, 0.08}), wood);
+        add(scene, box({x - 0.12, -2.2, -0.12}, {x + 0.12, 3.1, 0.12}), wood);
+        add(scene, box({x - 0.5, 2.55, -0.08}, {x + 0.5, 2.68, 0.08}), wood);
     }
-    constexpr std::array heights{2.1, 1.45, 0.8};
+    constexpr std::array heights{2.6, 1.85, 1.1};
     for (const double height : heights) {
         std::vector<TubePoint> path;
-        for (int i = -12; i <= 12; ++i) path.push_back({on_wire(height, i / 12.0), 0.016});
+        for (int i = -12; i <= 12; ++i) path.push_back({on_wire(height, i / 12.0), 0.035});
         add(scene, tube(path, 6), srgb(0x2B2B2B));
     }
     for (const double x : {-0.62, -0.5, -0.06, 0.47})
-        add_bird(scene, on_wire(heights[0], x) + Double3{0.0, 0.12, 0.0});
+        add_bird(scene, on_wire(heights[0], x) + Double3{0.0, 0.16, 0.0});
     for (const double x : {-0.3, 0.26, 0.36})
-        add_bird(scene, on_wire(heights[1], x) + Double3{0.0, 0.12, 0.0});
-    for (const Double3& in_air : {Double3{-1.75, 2.45, 0.0}, {0.95, 2.6, 0.0}, {1.7, -0.35, 0.0}})
+        add_bird(scene, on_wire(heights[1], x) + Double3{0.0, 0.16, 0.0});
+    for (const Double3& in_air :
+         {Double3{-1.62, 2.98, 0.0}, {1.1, 3.25, 0.0}, {1.86, 0.14, 0.0}, {-2.46, 0.2, 0.0}})
         add_bird(scene, in_air);
-    scene.camera = {.eye = {0.6f, 0.9f, 9.0f}, .target = {0.0f, 0.62f, 0.0f}, .field_of_view = 33};
+    scene.camera = {.eye = {0.5f, 0.4f, 8.6f}, .target = {0.0f, 1.3f, 0.0f}, .field_of_view = 46};
     scene.background = srgb(0xBFD9EA);
     add_light(scene, {30, 60, 40}, {0, 0, 0}, Color{0.95f, 0.90f, 0.80f});
     add_light(scene, {-20, 10, 60}, {0, 0, 0}, Color{0.25f, 0.28f, 0.32f});
