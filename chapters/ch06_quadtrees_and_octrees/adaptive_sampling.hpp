@@ -288,17 +288,23 @@ class AdaptiveSampler {
         observer_.observe(SamplingWave{cells, traced});
     }
 
-    // [color_in_even_cell]
-    /// Between the colours of the four corners, first along the rows, then down.
-    Color color_in_even_cell(const PixelCell& cell, const Pixel& p) const {
+    // [fill]
+    /// Traced pixels have their own colour, the others one between those of the corners: first down
+    /// the two sides, then along the row.
+    void fill(const PixelCell& cell, Image& image) const {
         const Pixel last = last_corner(cell);
-        const auto in_row = [&](int y) {
-            return between(Double3(at({cell.x, y}).sample.color),
-                           Double3(at({last.x, y}).sample.color), p.x - cell.x, last.x - cell.x);
-        };
-        return Color(between(in_row(cell.y), in_row(last.y), p.y - cell.y, last.y - cell.y));
+        const auto color = [&](int x, int y) { return Double3(at({x, y}).sample.color); };
+        for (int y = cell.y; y < std::min(cell.y + cell.edge, height_); ++y) {
+            const int down = y - cell.y, rows = last.y - cell.y;
+            const Double3 left = between(color(cell.x, cell.y), color(cell.x, last.y), down, rows);
+            const Double3 right = between(color(last.x, cell.y), color(last.x, last.y), down, rows);
+            for (int x = cell.x; x < std::min(cell.x + cell.edge, width_); ++x)
+                image.at(x, y) = at({x, y}).is_taken
+                                     ? at({x, y}).sample.color
+                                     : Color(between(left, right, x - cell.x, last.x - cell.x));
+        }
     }
-    // [color_in_even_cell]
+    // [fill]
 
     AdaptivePicture finished(std::size_t waves) const {
         AdaptivePicture picture{.image = Image(width_, height_), .traced = {}, .cells = {}};
@@ -308,11 +314,7 @@ class AdaptiveSampler {
         for (const Node& node : nodes_) {
             if (node.first_child || !is_in_picture(node.cell)) continue;
             picture.cells.push_back(node.cell);
-            for (int y = node.cell.y; y < std::min(node.cell.y + node.cell.edge, height_); ++y)
-                for (int x = node.cell.x; x < std::min(node.cell.x + node.cell.edge, width_); ++x)
-                    picture.image.at(x, y) = at({x, y}).is_taken
-                                                 ? at({x, y}).sample.color
-                                                 : color_in_even_cell(node.cell, {x, y});
+            fill(node.cell, picture.image);
         }
         return picture;
     }
