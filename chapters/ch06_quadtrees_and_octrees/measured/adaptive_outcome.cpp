@@ -16,7 +16,11 @@ std::string share_of(double share) {
     return share > 0.0 && share < 0.001 ? fmt::format("{:.3f} %", 100.0 * share) : percent(share);
 }
 
-/// Which pictures a table has, and what its first columns are called.
+/// No wrong pixel at all has no place on a logarithmic axis: it is drawn here, in %, below one
+/// pixel of the largest picture.
+constexpr double no_wrong_pixel = 1e-4;
+
+/// Which pictures a table has.
 using Chosen = bool (*)(const AdaptivePoint& point);
 
 std::vector<std::string> counts(const AdaptivePoint& p) {
@@ -97,7 +101,7 @@ Chart adaptive_chart(const std::vector<AdaptivePoint>& points) {
                     "Time of a picture of the room against its wrong pixels, for thresholds "
                     "from 2 to 32 of 255 steps",
                 .x_label = "time, in % of the full picture's",
-                .y_label = "pixels off by more than 8 of 255 steps, in %",
+                .y_label = "pixels off by more than 8 of 255 steps, in %; lowest: none",
                 .log_y = true,
                 .kind = ChartKind::points,
                 .series = {}};
@@ -108,7 +112,7 @@ Chart adaptive_chart(const std::vector<AdaptivePoint>& points) {
                 p.first_cell != AdaptivePoint::usual_first_cell)
                 continue;
             series.x.push_back(100.0 * p.time_share());
-            series.y.push_back(100.0 * p.wrong_share());
+            series.y.push_back(p.wrong > 0 ? 100.0 * p.wrong_share() : no_wrong_pixel);
             series.labels.push_back(std::to_string(p.threshold));
         }
         chart.series.push_back(series);
