@@ -1,7 +1,8 @@
 /// @file
 /// What a k-d tree of points is asked: the k nearest to a point, all within a radius, all in a box.
 /// Answers are those of a loop over all points in exact numbers. A query that is not finite finds
-/// nothing.
+/// nothing. The first two serve any tree: what they need of it is a type like PointSearch, with its
+/// `Tree` and `run`, and of the tree `size`, `point(slot)` and `index(slot)`.
 #pragma once
 
 #include "chapters/ch04_kd_trees/kd_points.hpp"
@@ -141,9 +142,9 @@ class PointSearch {
 
 /// Which of two points, named by their slots in `index`, comes first: the nearer one, exactly; of
 /// equally near ones that with the lower index.
-template <int D>
+template <int D, class Tree = KdPoints<D>>
 struct TrueOrder {
-    const KdPoints<D>& tree;
+    const Tree& tree;
     Point<D> query;
 
     Neighbour neighbour(std::uint32_t slot) const {
@@ -216,12 +217,12 @@ class FloatNearest {
 };
 
 /// The k nearest in their true order.
-template <int D>
+template <int D, class Tree>
 class TrueNearest {
   public:
     float reach;
 
-    TrueNearest(const TrueOrder<D>& nearer, std::span<Neighbour> best, float limit)
+    TrueNearest(const TrueOrder<D, Tree>& nearer, std::span<Neighbour> best, float limit)
         : reach(limit), nearer_(nearer), best_(best) {}
 
     void consider(float, std::uint32_t slot) {
@@ -238,17 +239,19 @@ class TrueNearest {
     }
 
   private:
-    const TrueOrder<D>& nearer_;
+    const TrueOrder<D, Tree>& nearer_;
     std::span<Neighbour> best_;
     std::size_t found_ = 0;
 };
 
 /// Finds the k nearest points, query after query. It holds the memory that this takes, so one of
 /// these serves one thread.
-template <int D>
+template <int D, class Search = PointSearch<D>>
 class NearestSearch {
   public:
-    NearestSearch(const KdPoints<D>& tree, std::size_t k)
+    using Tree = typename Search::Tree;
+
+    NearestSearch(const Tree& tree, std::size_t k)
         : tree_(tree), keys_(std::min(k, tree.size)), best_(keys_.size()) {}
 
     // [nearest]
@@ -257,14 +260,14 @@ class NearestSearch {
     template <class Observer = NoObserver>
     std::span<const Neighbour> operator()(const Point<D>& query, Observer&& observer = {}) {
         if (best_.empty() || !is_finite<D>(query)) return {};
-        const TrueOrder<D> nearer{tree_, query};
+        const TrueOrder<D, Tree> nearer{tree_, query};
         FloatNearest<D> guess(keys_);
-        PointSearch<D>::run(tree_, query, guess, observer);
+        Search::run(tree_, query, guess, observer);
         if (guess.is_certain()) {
             sort_by(nearer, guess.found());
         } else {
-            TrueNearest<D> truth(nearer, best_, guess.reach);
-            PointSearch<D>::run(tree_, query, truth, observer);
+            TrueNearest<D, Tree> truth(nearer, best_, guess.reach);
+            Search::run(tree_, query, truth, observer);
         }
         nearer.name(best_);
         return best_;
@@ -273,7 +276,7 @@ class NearestSearch {
 
   private:
     /// They are in order but for those too close for floats: insertion sort has little to do.
-    void sort_by(const TrueOrder<D>& nearer, std::span<const std::uint64_t> keys) {
+    void sort_by(const TrueOrder<D, Tree>& nearer, std::span<const std::uint64_t> keys) {
         for (std::size_t i = 0; i < keys.size(); ++i) {
             best_[i] = nearer.neighbour(FloatNearest<D>::slot_of(keys[i]));
             for (std::size_t at = i; at > 0 && nearer(best_[at], best_[at - 1]); --at)
@@ -281,26 +284,27 @@ class NearestSearch {
         }
     }
 
-    const KdPoints<D>& tree_;
+    const Tree& tree_;
     std::vector<std::uint64_t> keys_;
     std::vector<Neighbour> best_;
 };
 
 /// For a single query; see NearestSearch.
-template <int D>
-std::vector<Neighbour> k_nearest(const KdPoints<D>& tree, const Point<D>& query, std::size_t k) {
-    NearestSearch<D> search(tree, k);
+template <int D, class Search = PointSearch<D>>
+std::vector<Neighbour> k_nearest(const typename Search::Tree& tree, const Point<D>& query,
+                                 std::size_t k) {
+    NearestSearch<D, Search> search(tree, k);
     const auto best = search(query);
     return {best.begin(), best.end()};
 }
 
 /// Collects all points of a closed ball.
-template <int D>
+template <int D, class Tree>
 class RadiusSearch {
   public:
     const float reach;
 
-    RadiusSearch(const TrueOrder<D>& nearer, float radius, std::vector<Neighbour>& found)
+    RadiusSearch(const TrueOrder<D, Tree>& nearer, float radius, std::vector<Neighbour>& found)
         : reach(float_reach<D>(square_of(radius))),
           nearer_(nearer),
           square_(square_of(radius)),
@@ -324,21 +328,21 @@ class RadiusSearch {
         return (d + -square_).sign() <= 0;
     }
 
-    const TrueOrder<D>& nearer_;
+    const TrueOrder<D, Tree>& nearer_;
     double square_;
     std::vector<Neighbour>& found_;
 };
 
 /// All points whose true distance is at most the radius, in the order of `k_nearest`; none for a
 /// negative radius. `found` keeps its memory from query to query.
-template <int D, class Observer = NoObserver>
-void within_radius(const KdPoints<D>& tree, const Point<D>& query, float radius,
+template <int D, class Search = PointSearch<D>, class Observer = NoObserver>
+void within_radius(const typename Search::Tree& tree, const Point<D>& query, float radius,
                    std::vector<Neighbour>& found, Observer&& observer = {}) {
     found.clear();
     if (tree.size == 0 || !is_finite<D>(query) || !(radius >= 0.0f)) return;
-    const TrueOrder<D> nearer{tree, query};
-    RadiusSearch<D> search(nearer, radius, found);
-    PointSearch<D>::run(tree, query, search, observer);
+    const TrueOrder<D, typename Search::Tree> nearer{tree, query};
+    RadiusSearch<D, typename Search::Tree> ball(nearer, radius, found);
+    Search::run(tree, query, ball, observer);
     std::sort(found.begin(), found.end(), nearer);
     nearer.name(found);
 }

@@ -93,14 +93,15 @@ struct OrthtreeFrame {
 
     /// The cell at this depth that holds the point: cells are half-open, what lies on a plane is in
     /// the upper one; only the root's upper faces belong to the cells below them. A point outside
-    /// of the root is in the cell next to it.
+    /// of the root is in the cell next to it; NaN counts as below the root.
     OrthtreeCell<D> cell_of(const Point<D>& point, std::uint32_t depth) const {
         OrthtreeCell<D> cell{depth, {}};
         const double cells = std::ldexp(1.0, static_cast<int>(depth));
         for (int axis = 0; axis < D; ++axis) {
             const double along = (double{point[axis]} - corner[axis]) * (cells / edge);
             std::uint32_t& place = cell.place[static_cast<std::size_t>(axis)];
-            place = static_cast<std::uint32_t>(std::clamp(along, 0.0, cells - 1.0));
+            // Arguments in this order: what is not a number goes to place 0.
+            place = static_cast<std::uint32_t>(std::max(0.0, std::min(along, cells - 1.0)));
             // The difference may have been rounded, up to the next plane at most.
             if (place > 0 && double{point[axis]} < plane(axis, depth, place)) --place;
         }

@@ -1,5 +1,6 @@
 /// @file
 /// Chapter 6's structures: octrees.
+#include "chapters/ch06_quadtrees_and_octrees/linear_octree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/octree.hpp"
 #include "chapters/ch12_comparison/structures/offer.hpp"
 
@@ -28,6 +29,8 @@ std::vector<Structure> ch06_structures() {
         offer_octree("octree-loose",
                      "loose octree: each triangle in one cell, which reaches twice as far",
                      Straddlers::keep, 2.0),
+        offer<LinearOctree>("octree-linear",
+                            "linear octree: triangles sorted by code, cells with boxes"),
     };
 }
 
