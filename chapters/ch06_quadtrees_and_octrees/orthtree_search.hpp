@@ -111,12 +111,12 @@ class OrthtreeSearch {
     }
 };
 
-// [within_box]
+// [points_in_box]
 /// The indices of all points in a closed box, ascending. A cell that lies in the box gives its
 /// range without a look at its points. `found` keeps its memory from query to query.
 template <int D, class Observer = NoObserver>
-void within_box(const OrthtreePoints<D>& tree, const BasicAabb<D>& box,
-                std::vector<std::uint32_t>& found, Observer&& observer = {}) {
+void points_in_box(const OrthtreePoints<D>& tree, const BasicAabb<D>& box,
+                   std::vector<std::uint32_t>& found, Observer&& observer = {}) {
     using Search = OrthtreeSearch<D>;
     found.clear();
     if (tree.size == 0 || box.is_empty()) return;
@@ -147,6 +147,6 @@ void within_box(const OrthtreePoints<D>& tree, const BasicAabb<D>& box,
     }
     std::ranges::sort(found);
 }
-// [within_box]
+// [points_in_box]
 
 }  // namespace space

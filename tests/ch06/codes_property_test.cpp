@@ -93,7 +93,7 @@ TEST_CASE("property: a closed box finds what a loop finds") {
         box.extend(some_point());
         box.extend(some_point());
         std::vector<std::uint32_t> found, wanted;
-        within_box<3>(OrthtreePoints<3>::build(points, some_config()), box, found);
+        points_in_box<3>(OrthtreePoints<3>::build(points, some_config()), box, found);
         for (std::uint32_t i = 0; i < points.size(); ++i)
             if (box.contains(points[i])) wanted.push_back(i);
         RC_ASSERT(found == wanted);

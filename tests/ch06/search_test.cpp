@@ -28,7 +28,7 @@ std::vector<Neighbour> around(const OrthtreePoints<D>& tree, const Point<D>& que
 template <int D>
 Indices in_box(const OrthtreePoints<D>& tree, const BasicAabb<D>& box) {
     Indices found;
-    within_box<D>(tree, box, found);
+    points_in_box<D>(tree, box, found);
     return found;
 }
 Indices indices_of(const std::vector<Neighbour>& neighbours) {
@@ -171,11 +171,11 @@ TEST_CASE("of cells within the box no point is compared") {
     const auto tree = OrthtreePoints<3>::build(random_points(10'000, 7));
     Counter whole, half;
     Indices found;
-    within_box<3>(tree, {Point3(-9), Point3(9)}, found, whole);
+    points_in_box<3>(tree, {Point3(-9), Point3(9)}, found, whole);
     CHECK(found.size() == 10'000);
     CHECK(whole.compared == 0);
     CHECK(whole.inner + whole.leaves == 1);
-    within_box<3>(tree, {Point3(-0.7f), Point3(0.7f)}, found, half);
+    points_in_box<3>(tree, {Point3(-0.7f), Point3(0.7f)}, found, half);
     CHECK(half.compared > 0);
     CHECK(half.compared < found.size());
 }
