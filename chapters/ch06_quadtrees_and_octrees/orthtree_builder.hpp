@@ -164,8 +164,9 @@ class OrthtreeBuilder {
         for (int axis = 0; axis < D; ++axis) {
             const double low = boxes_[polygon].min[axis], high = boxes_[polygon].max[axis];
             const double middle = cube.centre[axis];
-            if (!(low < middle)) mask &= upper_children(axis);
-            if (!(high > middle || low >= middle)) mask &= ~upper_children(axis);
+            const std::uint32_t lower = lower_children<D>(static_cast<std::uint32_t>(axis));
+            if (!(low < middle)) mask &= ~lower;
+            if (!(high > middle || low >= middle)) mask &= lower;
         }
         if (std::has_single_bit(mask)) return mask;
         const SimplexOverlap<D> overlap(polygons_[polygon]);
@@ -174,12 +175,6 @@ class OrthtreeBuilder {
         return mask;
     }
     // [overlapped]
-    static std::uint32_t upper_children(int axis) {
-        std::uint32_t mask = 0;
-        for (std::uint32_t k = 0; k < orthants<D>; ++k) mask |= (k >> axis & 1u) << k;
-        return mask;
-    }
-
     // [child_that_holds]
     /// The child in which the centre of the polygon's box lies, if its cell holds all of the box.
     std::uint32_t child_that_holds(std::uint32_t polygon, const OrthtreeCube<D>& cube,

@@ -16,9 +16,16 @@ namespace space {
 /// The largest depth of a cell: a place on each axis, one after the other, fills 62 or 63 bits.
 template <int D>
 inline constexpr std::uint32_t max_orthtree_depth = D == 2 ? 31 : 21;
-/// How many children a cell has.
+/// How many children a cell has: quadrants or octants.
 template <int D>
 inline constexpr std::uint32_t orthants = 1u << D;
+/// Those in the lower half of an axis, bit k for child k.
+template <int D>
+constexpr std::uint32_t lower_children(std::uint32_t axis) {
+    std::uint32_t mask = 0;
+    for (std::uint32_t k = 0; k < orthants<D>; ++k) mask |= (~k >> axis & 1u) << k;
+    return mask;
+}
 
 // [orthtree_cell]
 /// One cell of the grid that has 2^depth cells along an edge of the root.

@@ -36,7 +36,7 @@ struct OctreeConfig {
     std::uint32_t max_depth = max_orthtree_depth<3>;
     /// On no way from the root to a leaf do cuts multiply references by more than this. So there
     /// are at most that many for each polygon: see OrthtreeBuilder.
-    double max_growth = 16.0;
+    double max_growth = 8.0;
     std::size_t max_references = 1u << 31;  ///< limits memory
     bool mailboxes = true;  ///< no triangle is tested twice in a row by one ray (Octree)
     Walk walk = Walk::parametric;

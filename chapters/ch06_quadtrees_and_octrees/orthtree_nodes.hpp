@@ -45,8 +45,9 @@ struct OrthtreeCube {
     }
     OrthtreeCube child(std::uint32_t k) const {
         OrthtreeCube cube{centre, 0.5 * half};
-        for (int axis = 0; axis < D; ++axis)
-            cube.centre[axis] += (k >> axis & 1u) != 0 ? cube.half : -cube.half;
+        const double step[2] = {-cube.half, cube.half};
+#pragma GCC unroll 3
+        for (int axis = 0; axis < D; ++axis) cube.centre[axis] += step[k >> axis & 1u];
         return cube;
     }
     /// The cell as far as it reaches. Builder and walks take it from here: where it is rounded,

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -64,6 +65,15 @@ struct OrthtreeRay : KdRay<D> {
     explicit OrthtreeRay(const BasicRay<D>& ray) : KdRay<D>(ray) {
         for (std::size_t axis = 0; axis < D; ++axis) flip |= (1u - this->far[axis]) << axis;
     }
+    /// A mask of children with its bits in the order of the ray.
+    std::uint32_t seen(std::uint32_t mask) const {
+        for (std::uint32_t axis = 0; axis < D; ++axis)
+            if ((flip >> axis & 1u) != 0) {  // the same for all nodes of the ray
+                const std::uint32_t half = 1u << axis, lower = lower_children<D>(axis);
+                mask = (mask & lower) << half | (mask >> half & lower);
+            }
+        return mask;
+    }
 };
 
 // [plain]
@@ -116,44 +126,83 @@ class PlainWalk {
 /// its far halves, and not yet left its near ones. (The paper halves parameters on the way down;
 /// here they are computed from planes, whose coordinates are exact, so that errors don't add up.)
 ///
-/// `spans` has for each axis where the ray is in the near half and in the far one.
+/// Here are the parts of all children, by their numbers in the order of the ray: bit `axis` is set
+/// for the far half.
 template <int D>
-using HalfSpans = std::array<std::array<PlaneSpan, 2>, D>;
+struct ChildParts {
+    std::array<double, orthants<D>> enter, leave;
 
-/// Halves of a tight cell meet in its middle. Its outer planes bound the part already.
+    explicit ChildParts(const RayPart& part) : enter{part.enter}, leave{part.leave} {}
+
+    /// Doubles what the axes before this one have made: a near half and a far one.
+    void cut(int axis, const PlaneSpan& near, const PlaneSpan& far) {
+        const std::uint32_t half = 1u << axis;
+#pragma GCC unroll 8
+        for (std::uint32_t k = 0; k < half; ++k) {
+            enter[k | half] = std::max(enter[k], far.begin);
+            leave[k | half] = std::min(leave[k], far.end);
+            enter[k] = std::max(enter[k], near.begin);
+            leave[k] = std::min(leave[k], near.end);
+        }
+    }
+    /// The same with one plane between the halves: the part does not reach beyond their outer ones.
+    void cut(int axis, const PlaneSpan& middle) {
+        const std::uint32_t half = 1u << axis;
+#pragma GCC unroll 8
+        for (std::uint32_t k = 0; k < half; ++k) {
+            enter[k | half] = std::max(enter[k], middle.begin);
+            leave[k | half] = leave[k];
+            leave[k] = std::min(leave[k], middle.end);
+        }
+    }
+    /// The children that the ray meets: bit k for the k-th.
+    std::uint32_t met() const {
+        std::uint32_t mask = 0;
+#pragma GCC unroll 8
+        for (std::uint32_t k = 0; k < orthants<D>; ++k)
+            mask |= static_cast<std::uint32_t>(enter[k] <= leave[k]) << k;
+        return mask;
+    }
+};
+
 template <int D>
-HalfSpans<D> tight_halves(const OrthtreeRay<D>& ray, const OrthtreeCube<D>& cube) {
-    HalfSpans<D> spans;
+ChildParts<D> tight_parts(const OrthtreeRay<D>& ray, const OrthtreeCube<D>& cube,
+                          const RayPart& part) {
+    ChildParts<D> parts(part);
+#pragma GCC unroll 8
     for (int axis = 0; axis < D; ++axis) {
         const double t = ray.distance(axis, cube.centre[axis]);
-        spans[std::size_t(axis)][0].end_at(t);
-        spans[std::size_t(axis)][1].begin_at(t);
+        PlaneSpan middle;
+        middle.begin_at(t);
+        middle.end_at(t);
+        parts.cut(axis, middle);
     }
-    return spans;
+    return parts;
 }
 /// Halves of a loose cell overlap, and are narrower than the part on their outer sides, too.
 template <int D>
-HalfSpans<D> loose_halves(const OrthtreeRay<D>& ray, const OrthtreeCube<D>& cube,
-                          double looseness) {
-    HalfSpans<D> spans;
+ChildParts<D> loose_parts(const OrthtreeRay<D>& ray, const OrthtreeCube<D>& cube,
+                          const RayPart& part, double looseness) {
     const OrthtreeBox<D> below = cube.child(0).box(looseness),
                          above = cube.child(orthants<D> - 1).box(looseness);
+    ChildParts<D> parts(part);
     for (int axis = 0; axis < D; ++axis) {
         const bool upwards = ray.far[std::size_t(axis)] == 1;
-        for (std::size_t far = 0; far < 2; ++far) {
-            const OrthtreeBox<D>& half = (far == 1) == upwards ? above : below;
-            PlaneSpan& span = spans[std::size_t(axis)][far];
+        const auto span_of = [&](const OrthtreeBox<D>& half) {
+            PlaneSpan span;
             span.begin_at(ray.distance(axis, (upwards ? half.min : half.max)[axis]));
             span.end_at(ray.distance(axis, (upwards ? half.max : half.min)[axis]));
-        }
+            return span;
+        };
+        parts.cut(axis, span_of(upwards ? below : above), span_of(upwards ? above : below));
     }
-    return spans;
+    return parts;
 }
 
-template <class Nodes, int D, class Counts, class Own, class Observer, class Halves>
+template <class Nodes, int D, class Counts, class Own, class Observer, class Parts>
 void walk_by_parameters(const Nodes& tree, const OrthtreeRay<D>& ray,
                         const OrthtreeVisit<D, typename Nodes::Handle>& root, Counts& counts,
-                        const Own& own, Observer& observer, const Halves& halves) {
+                        const Own& own, Observer& observer, const Parts& parts_of) {
     using Visit = OrthtreeVisit<D, typename Nodes::Handle>;
     // A node waits beside at most 2^D - 1 others on each level.
     std::array<Visit, (orthants<D> - 1) * max_orthtree_depth<D> + 1> waiting;
@@ -168,15 +217,14 @@ void walk_by_parameters(const Nodes& tree, const OrthtreeRay<D>& ray,
         const auto& node = tree.node(at.node);
         if (node.count > 0) limit = own(at.node);
         if (node.is_leaf()) continue;
-        const HalfSpans<D> spans = halves(ray, at.cube);
-        for (std::uint32_t k = orthants<D>; k-- > 0;) {  // the nearest is to be the next in hand
+        const ChildParts<D> parts = parts_of(at);
+        // The nearest is to be the next in hand.
+        for (std::uint32_t met = parts.met() & ray.seen(node.mask); met != 0;) {
+            const auto k = static_cast<std::uint32_t>(std::bit_width(met)) - 1;
+            met ^= 1u << k;
             const std::uint32_t child = k ^ ray.flip;
-            if (!node.has(child)) continue;
-            RayPart part = at.part;
-            for (std::size_t axis = 0; axis < D; ++axis)
-                part = within(part, spans[axis][k >> axis & 1u]);
-            if (part.enter <= part.leave && part.enter <= limit)
-                waiting[size++] = {node.child(child), at.cube.child(child), part};
+            waiting[size++] = {
+                node.child(child), at.cube.child(child), {parts.enter[k], parts.leave[k]}};
         }
     }
 }
@@ -201,12 +249,12 @@ void walk_orthtree(const Nodes& tree, OctreeConfig::Walk way, const BasicRay<D>&
                                                                             own, observer}
             .visit(root);
     } else if (tree.looseness == 1.0) {
-        walk_by_parameters(tree, prepared, root, counts, own, observer, tight_halves<D>);
+        walk_by_parameters(tree, prepared, root, counts, own, observer,
+                           [&](const auto& at) { return tight_parts(prepared, at.cube, at.part); });
     } else {
-        const auto halves = [&](const OrthtreeRay<D>& r, const OrthtreeCube<D>& cube) {
-            return loose_halves(r, cube, tree.looseness);
-        };
-        walk_by_parameters(tree, prepared, root, counts, own, observer, halves);
+        walk_by_parameters(tree, prepared, root, counts, own, observer, [&](const auto& at) {
+            return loose_parts(prepared, at.cube, at.part, tree.looseness);
+        });
     }
 }
 

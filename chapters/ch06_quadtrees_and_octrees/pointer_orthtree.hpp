@@ -6,7 +6,6 @@
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_nodes.hpp"
 #include "common/geometry.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,18 +13,16 @@
 
 namespace space {
 
-/// A node with a place for each child, empty or not: 72 bytes in space, each node an allocation of
+/// A node with a place for each child, empty or not: 80 bytes in space, each node an allocation of
 /// its own, wherever that may lie.
 template <int D>
 struct PointerNode {
     std::array<std::unique_ptr<PointerNode>, orthants<D>> children;
     std::uint32_t first = 0, count = 0;  ///< what it names among the references
+    std::uint32_t mask = 0;              ///< bit k is set where child k is not empty
 
+    bool is_leaf() const { return mask == 0; }
     bool has(std::uint32_t k) const { return children[k] != nullptr; }
-    bool is_leaf() const {
-        return std::none_of(children.begin(), children.end(),
-                            [](const auto& child) { return child != nullptr; });
-    }
     const PointerNode* child(std::uint32_t k) const { return children[k].get(); }
 };
 
@@ -54,7 +51,7 @@ class PointerOrthtree {
         ++nodes_;
         auto node = std::make_unique<PointerNode<D>>();
         const OrthtreeNode old = tree.node(index);
-        node->first = old.first, node->count = old.count;
+        node->first = old.first, node->count = old.count, node->mask = old.mask;
         for (std::uint32_t k = 0; k < orthants<D>; ++k)
             if (old.has(k)) node->children[k] = copy(tree, old.child(k));
         return node;

@@ -40,7 +40,6 @@ struct Variant {
 std::vector<Variant> variants() {
     return {{"tight", {}},
             {"deep", {.costs = {.traversal = 0.0}, .max_leaf_size = 1, .max_growth = 40.0}},
-            {"plain", {.walk = Walk::plain}},
             {"kept", {.straddlers = Straddlers::keep}},
             {"loose", {.straddlers = Straddlers::keep, .looseness = 2.0}}};
 }
@@ -156,7 +155,7 @@ TEST_CASE("in the layout of pointers the walk takes the same way") {
     const auto triangles = scenes::soup(300, 0.2f, 25);
     const auto tree = OrthtreeBuilder<3>::build(triangles);
     const PointerOrthtree<3> pointers(tree);
-    CHECK(pointers.bytes() == 72 * tree.nodes.size());
+    CHECK(pointers.bytes() == 80 * tree.nodes.size());
     CellRays maker(tree, triangles, 7);
     for (int i = 0; i < sized(5'000, 300); ++i) {
         const Ray ray = maker.next().ray;
