@@ -176,8 +176,9 @@ TEST_CASE(
 TEST_CASE("thirty levels down the quadrants still hold their points") {
     Pcg32 random(1);
     for (int i = 0; i < 200; ++i) {
-        const float x = random.uniform(-1.0f, 1.0f) * std::ldexp(1.0f, -int(random.below(40))),
-                    y = random.uniform(-1.0f, 1.0f);
+        const int smaller = int(random.below(40));
+        const float x = std::ldexp(random.uniform(-1.0f, 1.0f), -smaller);
+        const float y = random.uniform(-1.0f, 1.0f);
         Box cell = root;
         for (int depth = 0; depth < 30; ++depth) {
             const double half = 0.5 * (cell.max.x - cell.min.x);

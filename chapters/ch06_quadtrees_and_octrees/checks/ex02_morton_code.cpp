@@ -70,16 +70,11 @@ void walk(const Double3& corner, double edge, int depth, std::vector<Point3>& ce
 
 /// From 0 to 1; also near 0, near 1, and on planes.
 float random_coordinate(Pcg32& random) {
-    switch (random.below(4)) {
-        case 0:
-            return random.uniform();
-        case 1:
-            return std::ldexp(random.uniform(), -int(random.below(30)));
-        case 2:
-            return 1.0f - std::ldexp(random.uniform(), -int(random.below(22)));
-        default:
-            return static_cast<float>(random.below((1u << 21) + 1)) * 0x1p-21f;
-    }
+    const std::uint32_t kind = random.below(4);
+    if (kind == 0) return static_cast<float>(random.below((1u << 21) + 1)) * 0x1p-21f;
+    const int smaller = kind == 1 ? 0 : int(random.below(28));
+    const float p = std::ldexp(random.uniform(), -smaller);
+    return kind == 3 ? 1.0f - p : p;
 }
 Point3 random_in_cube(Pcg32& random) {
     Point3 point;
@@ -126,9 +121,9 @@ TEST_CASE("what lies on the root's upper faces is in the last cell of its axis")
 }
 
 TEST_CASE("a point between two cells is in the upper one, the float before it in the lower") {
+    Pcg32 random(3);
     for (int depth = 1; depth <= 21; ++depth)
         for (int i = 0; i < 40; ++i) {
-            Pcg32 random(std::uint64_t(i), std::uint64_t(depth));
             const std::uint32_t place = 1 + random.below((1u << depth) - 1);
             const float plane = std::ldexp(float(place), -depth);
             CAPTURE(depth, place, Number(plane));
@@ -160,9 +155,8 @@ TEST_CASE("random points of the cube have the codes that halving finds") {
 }
 
 TEST_CASE(
-    "equal codes have their smallest cell in common, codes of two of the root's children the "
-    "root") {
-    for (const std::uint64_t code : {std::uint64_t{0}, std::uint64_t{1} << 62, ~0ull >> 1}) {
+    "equal codes share their smallest cell; those of two children of the root share the root") {
+    for (const std::uint64_t code : {std::uint64_t{0}, std::uint64_t{1} << 62, 7 * all_ones}) {
         CAPTURE(children_of(code));
         REQUIRE(common_depth(code, code) == 21);
     }
@@ -175,8 +169,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE(
-    "codes have as many cells in common as first digits, whichever bit is the first to differ") {
+TEST_CASE("codes share as many cells as first digits, whichever bit is the first to differ") {
     Pcg32 random(2);
     for (int bit = 0; bit < 63; ++bit)
         for (int i = 0; i < 100; ++i) {
