@@ -50,7 +50,7 @@ class WalkPaper {
     static constexpr double strip = 386;  ///< below it stand the rows
 
     void draw_cells(Svg& svg, std::size_t k) const;
-    void draw_line(Svg& svg, std::size_t k) const;
+    void draw_lines(Svg& svg, const DrawnTree::Node& node, Ink ink) const;
     void draw_segments(Svg& svg) const;
     void draw_ray(Svg& svg, std::size_t k) const;
     void draw_tree(Svg& svg) const;
@@ -107,11 +107,9 @@ void WalkPaper::draw_cells(Svg& svg, std::size_t k) const {
                     {.stroke = {}, .fill = Ink::orange, .opacity = 0.3});
 }
 
-/// The line of the node in hand.
-void WalkPaper::draw_line(Svg& svg, std::size_t k) const {
-    if (!steps_[k].in_hand) return;
-    const std::vector<Double2>& line = tree_.nodes[steps_[k].in_hand->node].line;
-    if (!line.empty()) svg.line(view_(line[0]), view_(line[1]), {.stroke = Ink::green});
+void WalkPaper::draw_lines(Svg& svg, const DrawnTree::Node& node, Ink ink) const {
+    for (std::size_t i = 0; i + 1 < node.lines.size(); i += 2)
+        svg.line(view_(node.lines[i]), view_(node.lines[i + 1]), {.stroke = ink});
 }
 
 /// What is drawn once for each run of steps that give it the same ink.
@@ -150,8 +148,9 @@ void WalkPaper::draw_ray(Svg& svg, std::size_t k) const {
         draw_segment(svg, view_, origin + step.in_hand->enter * way, origin + leave * way,
                      {.stroke = {}, .fill = Ink::green});
     }
-    if (step.crossing && *step.crossing >= 0.0 && *step.crossing <= exit_)
-        svg.circle(on_ray(*step.crossing), 5, {.stroke = Ink::paper, .fill = Ink::green});
+    for (const double t : step.crossings)
+        if (t >= 0.0 && t <= exit_)
+            svg.circle(on_ray(t), 5, {.stroke = Ink::paper, .fill = Ink::green});
     if (step.hit) svg.circle(on_ray(*step.hit), 8, {.stroke = Ink::vermillion});
 }
 
@@ -222,12 +221,10 @@ void WalkPaper::draw(Svg& svg) const {
         svg.end_group();
     }
     svg.rect(view_({0, tree_.size}), at(frame, frame), {.stroke = Ink::quiet});
-    for (const DrawnTree::Node& node : tree_.nodes)
-        if (!node.line.empty())
-            svg.line(view_(node.line[0]), view_(node.line[1]), {.stroke = Ink::faint});
+    for (const DrawnTree::Node& node : tree_.nodes) draw_lines(svg, node, Ink::faint);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         svg.begin_step_alone(k, steps_.size());
-        draw_line(svg, k);
+        if (steps_[k].in_hand) draw_lines(svg, tree_.nodes[steps_[k].in_hand->node], Ink::green);
         svg.end_group();
     }
     draw_segments(svg);

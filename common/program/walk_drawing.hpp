@@ -20,7 +20,7 @@ struct DrawnTree {
     struct Node {
         std::string name;                        ///< as Svg::text takes it; an empty cell has none
         ConvexCell cell;                         ///< the part of the plane that it is about
-        std::vector<Double2> line = {};          ///< what divides it: two ends, or nothing
+        std::vector<Double2> lines = {};         ///< what divides it: two ends of each
         std::vector<std::size_t> children = {};  ///< from left to right on the paper
     };
     double size;  ///< of the square, from (0, 0) on
@@ -39,7 +39,7 @@ struct WalkStep {
     std::optional<Visit> in_hand = {};
     std::vector<Visit> waiting = {};       ///< a stack: what is taken next stands last
     std::optional<std::size_t> next = {};  ///< the node or the empty cell to which it goes
-    std::optional<double> crossing = {};   ///< where the ray meets the line of the node in hand
+    std::vector<double> crossings = {};    ///< where the ray meets the lines of the node in hand
     std::vector<std::size_t> tested = {};  ///< segments that are asked in this step
     std::optional<double> hit = {};        ///< the nearest so far
 };

@@ -41,7 +41,7 @@ TEST_CASE("each step of a walk shows its own part in hand, and the last one with
                          .segments = {{"A", {1, 1}, {3, 1}}},
                          .nodes = {{.name = "*A*",
                                     .cell = {{0, 0}, {4, 0}, {4, 4}, {0, 4}},
-                                    .line = {{0, 1}, {4, 1}},
+                                    .lines = {{0, 1}, {4, 1}},
                                     .children = {1, 2}},
                                    {.name = "", .cell = {{0, 0}, {4, 0}, {4, 1}, {0, 1}}},
                                    {.name = "", .cell = {{0, 1}, {4, 1}, {4, 4}, {0, 4}}}}};
@@ -49,7 +49,7 @@ TEST_CASE("each step of a walk shows its own part in hand, and the last one with
     const std::vector<WalkStep> steps{{.tells = "It comes to A.",
                                        .in_hand = WalkStep::Visit{0, 0, infinity},
                                        .next = 2,
-                                       .crossing = 3},
+                                       .crossings = {3}},
                                       {.tells = "It hits A.", .tested = {0}, .hit = 3}};
     const std::string svg = walk_drawing("A walk", tree, ray, steps).document("f");
     CHECK(

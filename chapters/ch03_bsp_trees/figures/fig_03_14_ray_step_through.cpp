@@ -28,7 +28,7 @@ DrawnTree drawn(const Story& story) {
         const auto [from, to] = line_in_cell(story, i);
         tree.nodes.push_back({.name = written(story.pieces[story.turns[i].own.front()]),
                               .cell = story.turns[i].cell,
-                              .line = {from, to},
+                              .lines = {from, to},
                               .children = children[i]});
     }
     for (const EmptyCell& cell : story.cells) tree.nodes.push_back({.name = "", .cell = cell.cell});
@@ -64,7 +64,7 @@ class Script {
                         name(event.node), interval(event.enter, event.leave),
                         crossing.starts_in_front ? "in front of" : "behind", written_t(t));
         WalkStep step{.in_hand = WalkStep::Visit{event.node, event.enter, event.leave},
-                      .crossing = t};
+                      .crossings = {t}};
         if (crossing.latest < event.enter) {
             step.tells = met + fmt::format("before the interval. So only the far child counts, {}.",
                                            called(far));
@@ -90,7 +90,7 @@ class Script {
         waiting_.pop_back();
         WalkStep step{.in_hand = WalkStep::Visit{event.node, event.enter, event.leave},
                       .next = far,
-                      .crossing = event.enter};
+                      .crossings = {event.enter}};
         std::string names;
         for (const std::size_t piece : own(event.node)) {
             step.tested.push_back(piece);

@@ -26,7 +26,7 @@ DrawnTree drawn(const Story& story) {
             const std::uint32_t below = story.tree.nodes[turn.node].below();
             const auto [from, to] = line_in_cell(turn.cell, *turn.split);
             node.name = "*" + heinonen_plane_name(story, turn.node) + "*";
-            node.line = {from, to};
+            node.lines = {from, to};
             node.children = {number_of(below), number_of(below + 1)};
         } else {
             node.name = drawn_name(story.named[turn.set.front()].name);
@@ -76,7 +76,7 @@ class Script {
                             near = far ^ 1;
         const double t = prepared_.distance(turn.split->axis, turn.split->position);
         WalkStep step{.in_hand = WalkStep::Visit{number_of(visit.at.node), enter, leave},
-                      .crossing = t};
+                      .crossings = {t}};
         const std::string met =
             fmt::format("{} with {}: the plane {} = {} is met at t = {}, ", called(visit.at.node),
                         interval(enter, leave), "xy"[turn.split->axis],
