@@ -1,6 +1,6 @@
 /// Chapter 6: quadtrees and octrees, whose cells are cut in the middle of every axis at once.
 ///     ch06_quadtrees_and_octrees --out pictures
-///     ch06_quadtrees_and_octrees --figure fig_06_20 --out figures
+///     ch06_quadtrees_and_octrees --figure fig_06_10 --out figures
 #include "chapters/ch06_quadtrees_and_octrees/measured/adaptive.hpp"
 #include "common/measure.hpp"
 #include "common/program/chapter.hpp"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch06_quadtrees_and_octrees/orthtree_config.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_nodes.hpp"
 #include "common/accelerator.hpp"
 #include "common/geometry.hpp"

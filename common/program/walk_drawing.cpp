@@ -181,7 +181,8 @@ void WalkPaper::draw_node(Svg& svg, std::size_t i, Ink ink) const {
             return std::string_view("*_{}").find(c) != std::string_view::npos;
         });
         const auto letters = static_cast<double>(node.name.size()) - static_cast<double>(marks);
-        const double half = std::max(14.0, 7.0 * letters);
+        const bool has_subscript = node.name.find('_') != std::string::npos;
+        const double half = std::max(14.0, (has_subscript ? 7.0 : 9.0) * letters);
         svg.rect(moved(place(i), -half, -14), at(2 * half, 28), style);
     } else {
         svg.circle(place(i), 20, style);

@@ -4,7 +4,7 @@
 
 namespace space::ch06 {
 
-Chart fig_06_23(const Options& options) {
+Chart fig_06_13(const Options& options) {
     return adaptive_chart(measured_once<measure_adaptive>(options));
 }
 

@@ -18,9 +18,9 @@
 namespace space::ch06 {
 namespace {
 
-constexpr double size = 128.0, side = 316, pot_size = 1.0;
-const Double2 pot_at{81.3, 45.7};  ///< on the field, not where cells of any size begin
-const OrthtreeBox<2> lens{pot_at - 0.75 * pot_size, pot_at + 0.75 * pot_size};
+constexpr double size = 128.0, side = 316, pot_size = 0.5;
+const Double2 pot_at{83.7, 54.6};  ///< on the field
+const OrthtreeBox<2> lens{pot_at - 0.7 * pot_size, pot_at + 0.7 * pot_size};
 
 void add_polyline(std::vector<Segment>& segments, const std::vector<Double2>& points) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
@@ -37,7 +37,33 @@ std::vector<Double2> arc(Double2 middle, Double2 radius, double from, double to,
     return points;
 }
 
-/// Two rings of walls, the lines of a field, and on it a teapot, seen from the side.
+/// A parabola that begins at `from` in the direction of `by`, and comes to `to` from there.
+std::vector<Double2> bend(Double2 from, Double2 by, Double2 to, int pieces) {
+    std::vector<Double2> points;
+    for (int i = 0; i <= pieces; ++i) {
+        const double t = double(i) / pieces;
+        points.push_back((1 - t) * (1 - t) * from + 2 * t * (1 - t) * by + t * t * to);
+    }
+    return points;
+}
+
+/// Seen from the side, its body from -0.3 to 0.3.
+std::vector<std::vector<Double2>> teapot_lines() {
+    return {arc({0.0, 0.0}, {0.30, 0.26}, 0, 1, 48),
+            {{-0.16, -0.22}, {-0.19, -0.29}, {0.19, -0.29}, {0.16, -0.22}},
+            bend({-0.19, 0.20}, {-0.14, 0.36}, {0.0, 0.32}, 10),
+            bend({0.0, 0.32}, {0.14, 0.36}, {0.19, 0.20}, 10),
+            arc({0.0, 0.36}, {0.04, 0.04}, 0, 1, 14),
+            bend({-0.27, 0.12}, {-0.42, 0.26}, {-0.48, 0.09}, 10),
+            bend({-0.48, 0.09}, {-0.53, -0.08}, {-0.285, -0.08}, 10),
+            bend({-0.29, 0.07}, {-0.39, 0.18}, {-0.425, 0.07}, 8),
+            bend({-0.425, 0.07}, {-0.46, -0.03}, {-0.298, -0.03}, 8),
+            bend({0.27, -0.12}, {0.42, -0.10}, {0.46, 0.18}, 14),
+            bend({0.298, 0.03}, {0.36, 0.04}, {0.38, 0.20}, 10),
+            {{0.46, 0.18}, {0.50, 0.225}, {0.36, 0.225}, {0.38, 0.20}}};
+}
+
+/// Two rings of walls, the lines of a field, and on it a teapot.
 std::vector<Segment> stadium() {
     std::vector<Segment> segments;
     const Double2 middle(0.5 * size);
@@ -48,37 +74,38 @@ std::vector<Segment> stadium() {
                             middle + Double2(-half.x, half.y), middle - half});
     add_polyline(segments, {middle - Double2(0, half.y), middle + Double2(0, half.y)});
     add_polyline(segments, arc(middle, Double2(7.0), 0, 1, 24));
-
-    const auto add = [&](Double2 at, Double2 radius, double from, double to, int pieces) {
-        add_polyline(segments, arc(pot_at + pot_size * at, pot_size * radius, from, to, pieces));
-    };
-    add({0.0, 0.0}, {0.30, 0.26}, -0.18, 0.68, 44);       // the body, without its foot
-    add({0.0, -0.235}, {0.127, 0.03}, 0.5, 1.0, 12);      // the foot
-    add({0.0, 0.235}, {0.15, 0.07}, 0.0, 0.5, 16);        // the lid
-    add({0.0, 0.335}, {0.035, 0.035}, -0.2, 0.7, 14);     // its knob
-    add({-0.28, 0.04}, {0.17, 0.13}, 0.12, 0.84, 22);     // the handle, outside and inside
-    add({-0.28, 0.04}, {0.12, 0.08}, 0.16, 0.80, 18);
-    add({0.27, 0.27}, {0.22, 0.20}, 0.75, 0.98, 14);      // the spout, above and below
-    add({0.24, 0.24}, {0.25, 0.32}, 0.75, 0.98, 14);
+    for (std::vector<Double2> line : teapot_lines()) {
+        for (Double2& point : line) point = pot_at + pot_size * point;
+        add_polyline(segments, line);
+    }
     return segments;
+}
+
+bool is_in(const OrthtreeBox<2>& box, const Double2& p) {
+    return p.x >= box.min.x && p.y >= box.min.y && p.x <= box.max.x && p.y <= box.max.y;
+}
+/// Around the pot's middle, and no larger than two pots.
+bool is_at_pot(const OrthtreeBox<2>& cell) {
+    const Double2 edges = cell.max - cell.min;
+    return is_in(cell, pot_at) && std::max(edges.x, edges.y) <= 2.0 * pot_size;
 }
 
 /// A tree's cells, its size, and what rays do in it.
 struct Panel {
     const char* name;
     std::vector<OrthtreeBox<2>> leaves = {};
-    std::size_t nodes = 0, depth = 0;
-    double visits = 0;  ///< a ray
+    std::size_t to_pot = 1000;  ///< planes one after the other, down to a cell of its size
+    double planes = 0;          ///< that a ray is held against
 };
 
-/// From all around towards the pot.
+/// From all around towards the pot, with nothing between.
 template <class Walk>
-double visits_of_rays(const Walk& walk) {
+double planes_of_rays(const Walk& walk) {
     constexpr int rays = 64;
-    std::size_t visits = 0;
-    for (const Double2& from : arc(pot_at, Double2(0.3 * size), 0.01, 1.01, rays))
-        walk(Ray2{.origin = Point2(from), .direction = Point2(pot_at) - Point2(from)}, visits);
-    return double(visits) / (rays + 1);
+    std::size_t planes = 0;
+    for (const Double2& from : arc(pot_at, Double2(8.0), 0.01, 1.01, rays))
+        walk(Ray2{.origin = Point2(from), .direction = Point2(pot_at) - Point2(from)}, planes);
+    return double(planes) / (rays + 1);
 }
 
 /// The nearest hit so far, among what a node names.
@@ -99,28 +126,34 @@ class Nearest {
     double t_ = infinity;
 };
 
-struct VisitCounter {
-    std::size_t& visits;
+template <class Tree>
+struct PlaneCounter {
+    const Tree& tree;
+    std::size_t of_node;  ///< an inner one
+    std::size_t& planes;
     template <class Event>
-    void observe(const Event&) const {
-        ++visits;
+    void observe(const Event& event) const {
+        if (!tree.node(event.node).is_leaf()) planes += of_node;
     }
 };
 
 Panel quadtree(const std::vector<Segment>& segments) {
     Panel panel{.name = "quadtree"};
     const OrthtreeNodes<2> tree = OrthtreeBuilder<2>::build(segments);
-    tree.for_each_cell([&](std::uint32_t, const OrthtreeCell<2>& cell) {
-        panel.leaves.push_back(tree.frame.box(cell));
+    tree.for_each_cell([&](std::uint32_t index, const OrthtreeCell<2>& cell) {
+        if (is_at_pot(tree.frame.box(cell)))
+            panel.to_pot = std::min<std::size_t>(panel.to_pot, 2 * cell.depth);
+        for (std::uint32_t k = 0; k < orthants<2>; ++k)
+            if (const OrthtreeNode& node = tree.nodes[index]; !node.is_leaf())
+                panel.leaves.push_back(tree.frame.box(cell.child(k)));
     });
-    panel.nodes = tree.nodes.size();
-    panel.depth = tree.depth;
-    panel.visits = visits_of_rays([&](const Ray2& ray, std::size_t& visits) {
+    panel.planes = planes_of_rays([&](const Ray2& ray, std::size_t& planes) {
         Nearest nearest(segments, ray);
         NoCounts none;
         walk_orthtree(
             tree, OctreeConfig::Walk::parametric, ray, none,
-            [&](std::uint32_t node) { return nearest.own(tree, node); }, VisitCounter{visits});
+            [&](std::uint32_t node) { return nearest.own(tree, node); },
+            PlaneCounter<OrthtreeNodes<2>>{tree, 2, planes});
     });
     return panel;
 }
@@ -131,9 +164,9 @@ struct CellWatcher : NoObserver {
 
     explicit CellWatcher(Panel& to) : panel(to) {}
     void observe(const KdBuilder<2>::Chosen& event) {
-        panel.depth = std::max(panel.depth, event.depth);
-        if (!event.split)
-            panel.leaves.push_back({Double2(event.cell.min), Double2(event.cell.max)});
+        const OrthtreeBox<2> cell{Double2(event.cell.min), Double2(event.cell.max)};
+        if (is_at_pot(cell)) panel.to_pot = std::min(panel.to_pot, event.depth);
+        if (!event.split) panel.leaves.push_back(cell);
     }
 };
 
@@ -141,13 +174,12 @@ Panel kd_tree(const std::vector<Segment>& segments) {
     Panel panel{.name = "k-d tree, by areas"};
     CellWatcher watcher(panel);
     const KdNodes<2> tree = KdBuilder<2>::build(segments, {}, watcher);
-    panel.nodes = tree.nodes.size();
-    panel.visits = visits_of_rays([&](const Ray2& ray, std::size_t& visits) {
+    panel.planes = planes_of_rays([&](const Ray2& ray, std::size_t& planes) {
         Nearest nearest(segments, ray);
         NoCounts none;
         walk_cells(
             tree, ray, none, [&](std::uint32_t node) { return nearest.own(tree, node); },
-            VisitCounter{visits});
+            PlaneCounter<KdNodes<2>>{tree, 1, planes});
     });
     return panel;
 }
@@ -168,10 +200,8 @@ void draw_panel(Svg& svg, const Panel& panel, const std::vector<Segment>& segmen
                          .size = lens.max.y - lens.min.y};
     svg.text(at(left + 0.5 * side, 22), panel.name, {.bold = true});
     draw_cells(svg, all, panel, {Double2(0.0), Double2(size)});
-    for (const Segment& s : segments) {
-        const bool in_lens = common_part({Double2(s.a), Double2(s.a)}, lens).min == Double2(s.a);
-        if (!in_lens) svg.line(all(Double2(s.a)), all(Double2(s.b)));
-    }
+    for (const Segment& s : segments)
+        if (!is_in(lens, Double2(s.a))) svg.line(all(Double2(s.a)), all(Double2(s.b)));
     const Point2 pot = all(pot_at);
     for (const double x : {left, left + side})
         svg.line(pot, at(x, below), {.stroke = Ink::quiet, .dashed = true});
@@ -180,12 +210,12 @@ void draw_panel(Svg& svg, const Panel& panel, const std::vector<Segment>& segmen
     draw_cells(svg, near, panel, lens);
     svg.rect(at(left, below), at(side, side), {.stroke = Ink::quiet});
     for (const Segment& s : segments)
-        if (common_part({Double2(s.a), Double2(s.a)}, lens).min == Double2(s.a))
+        if (is_in(lens, Double2(s.a)))
             svg.line(near(Double2(s.a)), near(Double2(s.b)), {.stroke = Ink::vermillion});
     svg.text(at(left + 0.5 * side, below + side + 26),
-             fmt::format("{} nodes, depth {}", panel.nodes, panel.depth), {.size = 17});
+             fmt::format("{} planes down to the pot", panel.to_pot), {.size = 17});
     svg.text(at(left + 0.5 * side, below + side + 50),
-             fmt::format("a ray to the pot visits {:.1f} nodes", panel.visits), {.size = 17});
+             fmt::format("a ray to the pot meets {:.0f}", panel.planes), {.size = 17});
 }
 
 }  // namespace

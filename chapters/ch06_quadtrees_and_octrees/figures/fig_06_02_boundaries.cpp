@@ -12,7 +12,7 @@ namespace space::ch06 {
 namespace {
 
 constexpr std::uint32_t depth = 2, cells = 1u << depth;
-constexpr double side = 208;
+constexpr double side = 196;
 const OrthtreeFrame<2> frame{.corner = Double2(0.0), .edge = 8.0};
 
 using Holds = std::function<bool(const OrthtreeCell<2>&, const Point2&)>;
@@ -73,13 +73,11 @@ void draw_panel(Svg& svg, double left, const char* name, const char* rule, const
     Count count;
     int points = 0;
     for (int y = 0; y <= 8; ++y)
-        for (int x = 0; x <= 8; ++x, ++points)
-            draw_point(svg, view, Point2(x, y), holds, count);
+        for (int x = 0; x <= 8; ++x, ++points) draw_point(svg, view, Point2(x, y), holds, count);
     svg.text(at(left + 0.5 * side, 74 + side), rule, {.size = 17});
     svg.text(at(left + 0.5 * side, 98 + side),
-             count.lost > 0
-                 ? fmt::format("{} of {} lost", count.lost, points)
-                 : fmt::format("{} names for {} points", count.names, points),
+             count.lost > 0 ? fmt::format("{} of {} lost", count.lost, points)
+                            : fmt::format("{} names for {} points", count.names, points),
              {.size = 17});
 }
 
@@ -88,9 +86,9 @@ void draw_panel(Svg& svg, double left, const char* name, const char* rule, const
 Svg fig_06_02(const Options&) {
     Svg svg("81 points in 16 cells, most on boundaries, by open, closed and half-open cells", 672,
             106 + side);
-    draw_panel(svg, 8, "open", "low < *x* < high", is_in_open);
-    draw_panel(svg, 232, "closed", "low ≤ *x* ≤ high", is_in_closed);
-    draw_panel(svg, 456, "half-open", "low ≤ *x* < high", is_in_half_open);
+    draw_panel(svg, 10, "open", "low < *x* < high", is_in_open);
+    draw_panel(svg, 238, "closed", "low ≤ *x* ≤ high", is_in_closed);
+    draw_panel(svg, 466, "half-open", "low ≤ *x* < high", is_in_half_open);
     return svg;
 }
 

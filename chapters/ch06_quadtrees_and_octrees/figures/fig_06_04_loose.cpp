@@ -22,31 +22,40 @@ constexpr double size = 16.0, side = 208;
 std::vector<Segment> short_segments() {
     Pcg32 random(6);
     std::vector<Segment> segments{{{0.0f, 0.0f}, {0.5f, 0.75f}}};  // where the root's corner is
-    while (segments.size() < 72) {
-        const Point2 middle = random_point<2>(random, {Point2(0.6f), Point2(15.4f)});
-        const Vector2 half = random_point<2>(random, {Point2(-0.5f), Point2(0.5f)});
-        if (glm::dot(half, half) > 0.09f) segments.push_back({middle - half, middle + half});
+    while (segments.size() < 64) {
+        const Point2 middle = random_point<2>(random, {Point2(0.8f), Point2(15.2f)});
+        const Vector2 half = random_point<2>(random, {Point2(-0.75f), Point2(0.75f)});
+        if (glm::dot(half, half) > 0.16f) segments.push_back({middle - half, middle + half});
     }
     return segments;
 }
 
-/// What a random line tests, on average.
-double tests_of_rays(const OrthtreeNodes<2>& tree) {
-    constexpr int rays = 2000;
+/// What a random line does, on average.
+struct Work {
+    double visits = 0, tests = 0;
+};
+Work work_of_lines(const OrthtreeNodes<2>& tree) {
+    constexpr int lines = 2000;
+    struct Watcher {
+        std::size_t visits = 0;
+        void observe(const OrthtreeVisit<2>&) { ++visits; }
+    } watcher;
     Pcg32 random(66);
     std::size_t tests = 0;
-    for (int i = 0; i < rays; ++i) {
+    for (int i = 0; i < lines; ++i) {
         const Point2 from = random_point<2>(random, {Point2(0.0f), Point2(16.0f)});
         const Point2 to = random_point<2>(random, {Point2(0.0f), Point2(16.0f)});
         NoCounts none;
-        walk_orthtree(tree, OctreeConfig::Walk::parametric,
-                      Ray2{.origin = from, .direction = to - from, .tmin = -infinity}, none,
-                      [&](std::uint32_t node) {
-                          tests += tree.own(node).size();
-                          return double{infinity};
-                      });
+        walk_orthtree(
+            tree, OctreeConfig::Walk::parametric,
+            Ray2{.origin = from, .direction = to - from, .tmin = -infinity}, none,
+            [&](std::uint32_t node) {
+                tests += tree.own(node).size();
+                return double{infinity};
+            },
+            watcher);
     }
-    return double(tests) / rays;
+    return {double(watcher.visits) / lines, double(tests) / lines};
 }
 
 /// Where a segment is named: at the root every ray tests it.
@@ -82,7 +91,9 @@ void draw_panel(Svg& svg, double left, const char* name, const std::vector<Segme
     };
     line(26, fmt::format("{} names for {}", tree.references.size(), segments.size()));
     line(50, fmt::format("{} at the root", at_root));
-    line(74, fmt::format("{:.1f} tests a line", tests_of_rays(tree)));
+    const Work work = work_of_lines(tree);
+    line(74, fmt::format("a line: {:.0f} nodes,", work.visits));
+    line(98, fmt::format("{:.0f} tests", work.tests));
 }
 
 }  // namespace
@@ -91,9 +102,10 @@ Svg fig_06_04(const Options&) {
     using Straddlers = OctreeConfig::Straddlers;
     const std::vector<Segment> segments = short_segments();
     OctreeConfig config{.costs = {.traversal = 0.0}, .max_leaf_size = 1, .max_depth = 4};
-    Svg svg("Short segments in a quadtree that names them in all cells, in one that keeps them "
-            "where they fit, and in a loose one",
-            672, 40 + side + 84);
+    Svg svg(
+        "Short segments in a quadtree that names them in all cells, in one that keeps them "
+        "where they fit, and in a loose one",
+        672, 40 + side + 108);
     draw_panel(svg, 8, "in all cells", segments, config);
     config.straddlers = Straddlers::keep;
     draw_panel(svg, 232, "where they fit", segments, config);

@@ -78,14 +78,12 @@ void draw_octants(Svg& svg, const CubeView& view, std::uint32_t flip,
             const Point2 a = view(centre_of(from ^ flip)), b = view(centre_of(to ^ flip));
             const Vector2 way = 17.0f * glm::normalize(b - a);
             const bool on_way = is_visited(from ^ flip) && is_visited(to ^ flip);
-            svg.line(a + way, b - way,
-                     {.stroke = on_way ? Ink::blue : Ink::quiet, .arrow = true});
+            svg.line(a + way, b - way, {.stroke = on_way ? Ink::blue : Ink::quiet, .arrow = true});
         }
     for (std::uint32_t k = 0; k < 8; ++k) {
         const Point2 c = view(centre_of(k ^ flip));
         const bool on_way = is_visited(k ^ flip);
-        svg.circle(c, 15, {.stroke = on_way ? Ink::blue : Ink::quiet,
-                           .fill = Ink::paper});
+        svg.circle(c, 15, {.stroke = on_way ? Ink::blue : Ink::quiet, .fill = Ink::paper});
         if (on_way) svg.circle(c, 15, {.stroke = {}, .fill = Ink::sky, .opacity = 0.45});
         svg.text(moved(c, 0, 7), std::to_string(k), {.size = 20, .bold = on_way});
     }
@@ -102,7 +100,7 @@ void draw_order(Svg& svg, double left, double top, std::uint32_t flip,
             svg.rect(at(x - 16, top - 18), at(32, 54),
                      {.stroke = {}, .fill = Ink::sky, .opacity = 0.45});
         svg.text(at(x, top), std::to_string(k), {.bold = on_way});
-        svg.text(at(x, top + 28), bits(k ^ flip), {.size = 16, .bold = on_way});
+        svg.text(at(x, top + 28), bits(k ^ flip), {.size = 16});
     }
 }
 
@@ -126,7 +124,7 @@ void draw_axes(Svg& svg, const CubeView& view) {
         svg.line(o, end, {.stroke = Ink::ink, .arrow = true});
         svg.text(moved(end, x, y), name);
     };
-    axis({0.22, 0, 0}, "*x*", 12, 6);
+    axis({0.16, 0, 0}, "*x*", 9, 6);
     axis({0, 0.22, 0}, "*y*", 0, -8);
     axis({0, 0, 0.3}, "*z*", -10, 10);
 }
@@ -138,7 +136,7 @@ Svg fig_06_06(const Options&) {
             396);
     draw_panel(svg, 8, {.origin = {-0.35f, 0.03f, -0.35f}, .direction = {1.0f, 0.36f, 0.75f}});
     draw_panel(svg, 352, {.origin = {1.4f, 0.1f, 1.2f}, .direction = {-1.0f, 0.6f, -0.8f}});
-    draw_axes(svg, CubeView{at(316, 296)});
+    draw_axes(svg, CubeView{at(322, 296)});
     return svg;
 }
 

@@ -1,4 +1,5 @@
-// Morton codes: how bits of a place become a code, and the curve of all cells in the order of codes.
+// Morton codes: how bits of a place become a code, and the curve of all cells in the order of
+// codes.
 
 #include "chapters/ch06_quadtrees_and_octrees/figures.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/figures/plane_cells.hpp"
@@ -95,31 +96,30 @@ void draw_curve(Svg& svg, double left, double side) {
         const auto place = cell_of_code<2>(code, depth).place;
         svg.circle(view(Double2(place[0], place[1]) + 0.5), 3, {.stroke = {}, .fill = Ink::ink});
     }
-    const auto label = [&](std::uint64_t code, double x, double y, Anchor anchor) {
+    const auto label = [&](std::uint64_t code, double x, double y) {
         const auto place = cell_of_code<2>(code, depth).place;
         svg.text(moved(view(Double2(place[0], place[1]) + 0.5), x, y), std::to_string(code),
-                 {.anchor = anchor, .size = 17, .halo = true});
+                 {.size = 17, .halo = true});
     };
-    label(0, -4, 22, Anchor::middle);
-    label(15, 8, 5, Anchor::start);
-    label(16, 4, 22, Anchor::middle);
-    label(31, 2, -8, Anchor::middle);
-    label(32, -2, 22, Anchor::middle);
-    label(47, 8, 5, Anchor::start);
-    label(48, 4, 22, Anchor::middle);
-    label(63, 2, -8, Anchor::middle);
+    label(0, -4, 22);
+    label(15, -2, -8);
+    label(16, 4, 22);
+    label(31, 2, -8);
+    label(32, -6, -8);
+    label(63, 2, -8);
     svg.text(at(left + 0.5 * side, 24), "the curve", {.bold = true});
     svg.text(at(left + 0.5 * side, top + side + 24),
-             fmt::format("{} of {} steps are jumps; the longest: {:.2f} cells", jumps, steps.size(),
-                         longest),
-             {.size = 17});
+             fmt::format("{} of {} steps are jumps,", jumps, steps.size()), {.size = 17});
+    svg.text(at(left + 0.5 * side, top + side + 48),
+             fmt::format("the longest over {:.2f} cells", longest), {.size = 17});
 }
 
 }  // namespace
 
 Svg fig_06_08(const Options&) {
-    Svg svg("Morton codes of 16 cells, and the curve through 64 cells in their order with its jumps",
-            676, 404);
+    Svg svg(
+        "Morton codes of 16 cells, and the curve through 64 cells in their order with its jumps",
+        676, 420);
     draw_codes(svg, 56, 264);
     draw_curve(svg, 348, 320);
     return svg;

@@ -17,8 +17,8 @@ namespace space::ch06 {
 namespace {
 
 /// A to I. B lies on the line between the lower two cells.
-const std::vector<Point2> points{{2.5f, 3.0f},   {8.0f, 4.5f},   {13.0f, 2.0f},
-                                 {14.5f, 6.5f},  {3.0f, 12.5f},  {9.25f, 9.0f},
+const std::vector<Point2> points{{2.5f, 3.0f},    {8.0f, 4.5f},    {13.0f, 2.0f},
+                                 {13.5f, 5.5f},   {3.0f, 12.5f},   {9.25f, 9.0f},
                                  {10.75f, 11.0f}, {11.25f, 9.25f}, {14.0f, 14.25f}};
 const OrthtreeFrame<2> frame{.corner = Double2(0.0), .edge = 16.0};
 
@@ -155,7 +155,7 @@ void Stage::draw_cells(Svg& svg) const {
         };
         svg.begin_step(cut_[i], cut_[i]);
         cross(Ink::green);
-        for (std::uint32_t k = 0; k < 4; ++k) {
+        for (std::uint32_t k = 0; k < 4 && cell(i).depth < 2; ++k) {  // where there is room
             const OrthtreeBox<2> child = frame.box(cell(i).child(k));
             const double in = 0.5 / double(1u << cell(i).depth) + 0.25;
             const Double2 corner = (k & 1u) != 0 ? Double2(child.max.x - in, child.max.y - in)
@@ -188,7 +188,7 @@ void Stage::draw_node(Svg& svg, std::size_t i, Ink ink) const {
     } else {
         svg.circle(place(i), 18, style);
         svg.text(moved(place(i), 0, 6), i == 0 ? "root" : path_of(cell(i)),
-                 {.ink = ink, .size = i == 0 ? 16 : 18});
+                 {.ink = ink, .size = i == 0 ? 16.0 : 18.0});
     }
 }
 

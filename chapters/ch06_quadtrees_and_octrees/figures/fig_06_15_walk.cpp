@@ -1,5 +1,5 @@
-// A ray's walk through a quadtree of segments, step by step: what the walk told its observer becomes
-// the steps of a drawing.
+// A ray's walk through a quadtree of segments, step by step: what the walk told its observer
+// becomes the steps of a drawing.
 
 #include "chapters/ch06_quadtrees_and_octrees/figures.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/figures/plane_cells.hpp"
@@ -177,13 +177,13 @@ class Script {
         const bool hit = visit.nearest < nearest_;
         nearest_ = visit.nearest;
         tested_.insert(tested_.end(), visit.tested.begin(), visit.tested.end());
-        add({.tells = fmt::format("Leaf {}, {}: {} {}.", story_.called(visit.at.node),
-                                  interval(visit.at.part.enter, visit.at.part.leave),
-                                  story_.set_of(visit.at.node),
-                                  hit ? fmt::format("tested, and a hit at t = {}. What waits begins "
-                                                    "beyond it",
-                                                    written_t(nearest_))
-                                      : "tested and missed"),
+        add({.tells = fmt::format(
+                 "Leaf {}, {}: {} {}.", story_.called(visit.at.node),
+                 interval(visit.at.part.enter, visit.at.part.leave), story_.set_of(visit.at.node),
+                 hit ? fmt::format("tested, and a hit at t = {}. What waits begins "
+                                   "beyond it",
+                                   written_t(nearest_))
+                     : "tested and missed"),
              .in_hand = WalkStep::Visit{visit.at.node, visit.at.part.enter, visit.at.part.leave},
              .waiting = waiting_,
              .tested = visit.tested});

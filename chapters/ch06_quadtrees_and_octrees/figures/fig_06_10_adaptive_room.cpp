@@ -6,7 +6,7 @@
 
 namespace space::ch06 {
 
-Image fig_06_20(const Options& options) {
+Image fig_06_10(const Options& options) {
     constexpr int width = 400, height = 300;
     const SampledScene scene(make_scene("room"), width, height);
     const auto sampled = [&](AdaptiveConfig::Evidence evidence) {

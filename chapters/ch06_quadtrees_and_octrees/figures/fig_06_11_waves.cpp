@@ -70,7 +70,7 @@ std::string told(std::size_t wave, const Wave& now) {
 
 }  // namespace
 
-Svg fig_06_21(const Options&) {
+Svg fig_06_11(const Options&) {
     Svg svg("A small picture by adaptive sampling, wave by wave: cells, and the pixels traced",
             2 * left + side * width, 2 * top + side * height);
     Waves seen;

@@ -53,7 +53,7 @@ Scene wires() {
 
 }  // namespace
 
-Image fig_06_22(const Options& options) {
+Image fig_06_12(const Options& options) {
     constexpr int width = 200, height = 150, scale = 2;
     const SampledScene scene(wires(), width, height);
     const auto sampled = [&](AdaptiveConfig::Evidence evidence) {
