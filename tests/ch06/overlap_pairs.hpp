@@ -33,7 +33,9 @@ class PairMaker {
         cell_ = frame.box(cell);
         edge_ = float(frame.cell_edge(cell.depth));
         OverlapPair<D> pair{{}, cell_};
-        switch (random_.below(5)) {
+        switch (random_.below(6)) {
+            case 5:
+                return too_near_for_doubles();
             case 0:  // anywhere near
                 for (int i = 0; i < D; ++i) corner(pair.simplex, i) = near();
                 break;
@@ -52,6 +54,33 @@ class PairMaker {
 
   private:
     static BasicAabb<D> unit() { return {Point<D>(0.0f), Point<D>(1.0f)}; }
+    /// The unit cell, and a simplex that passes its corner 0 at less than doubles can tell: what
+    /// decides is lost when differences and products are rounded.
+    OverlapPair<D> too_near_for_doubles() {
+        OverlapPair<D> pair{{}, OrthtreeFrame<D>{}.box()};
+        const auto number = [&] { return random_.uniform(0.25f, 1.5f); };
+        const auto speck = [&] { return std::ldexp(random_.uniform(-1.0f, 1.0f), -58); };
+        if (D == 3 && random_.below(2) == 0) {  // a plane through it, but for specks
+            for (int i = 0; i < D; ++i) {
+                const float r = number();
+                Point<D>& p = corner(pair.simplex, i);
+                p[i] = r;
+                p[(i + 1) % D] = -r;
+                p[(i + D - 1) % D] = speck();
+            }
+            return pair;
+        }
+        // An edge from (-1, y) past (0, 0) to a point near it: x y + y' is nearly 0.
+        const int j = int(random_.below(D)), k = (j + 1) % D;
+        for (int i = 0; i < D; ++i) corner(pair.simplex, i) = Point<D>(number());
+        Point<D>&a = corner(pair.simplex, 0), &b = corner(pair.simplex, 1);
+        a[j] = -1.0f;
+        b[j] = std::ldexp(a[k], -30);
+        a[k] = number();
+        b[k] = -b[j] * a[k];
+        if (D == 3) corner(pair.simplex, D - 1)[j] = corner(pair.simplex, D - 1)[k] = -2.0f;
+        return pair;
+    }
     static Point<D>& corner(Simplex<D>& simplex, int i) {
         if constexpr (D == 3)
             if (i == 2) return simplex.c;
