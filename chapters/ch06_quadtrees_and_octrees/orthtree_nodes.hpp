@@ -29,6 +29,8 @@ struct OrthtreeNode {
         return children + static_cast<std::uint32_t>(std::popcount(mask & ((1u << k) - 1u)));
     }
 
+    bool operator==(const OrthtreeNode&) const = default;
+
     static constexpr std::size_t largest_count = (1u << 24) - 1;
 };
 static_assert(sizeof(OrthtreeNode) == 12);

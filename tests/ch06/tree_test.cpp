@@ -6,6 +6,7 @@
 #include "tests/ch04/exact_parts.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -223,6 +224,21 @@ TEST_CASE("references stay below max_growth for each polygon, nodes below that t
                                                         .max_references = 100'000});
     };
     CHECK_THROWS_AS(unbounded(), LimitError);
+}
+
+TEST_CASE("the same triangles give the same tree, node by node") {
+    for (const Straddlers straddlers : {Straddlers::duplicate, Straddlers::keep}) {
+        const OctreeConfig config{.straddlers = straddlers};
+        const auto triangles = scenes::soup(2'000, 0.1f, 11);
+        const auto tree = OrthtreeBuilder<3>::build(triangles, config),
+                   again = OrthtreeBuilder<3>::build(triangles, config);
+        CHECK(tree.nodes == again.nodes);
+        CHECK(tree.references == again.references);
+        for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
+            const auto own = tree.own(i);
+            REQUIRE(std::is_sorted(own.begin(), own.end()));
+        }
+    }
 }
 
 TEST_CASE("a builder tells every node once, and what it tells is what the tree becomes") {
