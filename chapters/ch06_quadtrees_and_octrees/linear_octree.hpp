@@ -55,29 +55,20 @@ struct BoxedOrthtree {
         BoxedOrthtree tree;
         tree.cells = LinearOrthtree<D>::build(std::move(codes), config, observer);
         tree.polygons = std::move(indices);
-        tree.set_boxes(own);
+        tree.boxes = boxes_around(tree.cells, [&](BasicAabb<D>& box, std::uint32_t item) {
+            box.extend(own[tree.polygons[item]]);
+        });
         return tree;
     }
     // [boxed_build]
-
-  private:
-    /// Children come after their parents.
-    void set_boxes(std::span<const BasicAabb<D>> own) {
-        boxes.resize(cells.nodes.size());
-        for (std::size_t i = boxes.size(); i-- > 0;) {
-            const auto& node = cells.nodes[i];
-            if (node.is_leaf())
-                for (std::uint32_t place = node.first; place < node.last; ++place)
-                    boxes[i].extend(own[polygons[place]]);
-            for (std::uint32_t child = 0; child < cells.children(node).size(); ++child)
-                boxes[i].extend(boxes[node.children + child]);
-        }
-    }
 };
 
 // [part_in_box]
-/// The ray's part in a box, if there is any: chapter 4's part_in with its margin, taken once for
-/// all axes. What is not a number, on a ray that lies in a face, changes nothing.
+/// The ray's part in a box, if there is any: chapter 4's part_in, with its margin taken once for
+/// all axes, and only where the ray leaves. Where it enters is held against planes, for which one
+/// margin is enough, and against the end of what matters, a float beyond each t that counts, and
+/// farther beyond than doubles err. What is not a number, on a ray that lies in a face, changes
+/// nothing.
 template <int D>
 std::optional<RayPart> part_in_box(const BasicAabb<D>& box, const KdRay<D>& ray, RayPart part) {
     double enter = -infinity, leave = infinity;
@@ -89,7 +80,7 @@ std::optional<RayPart> part_in_box(const BasicAabb<D>& box, const KdRay<D>& ray,
     if (leave < part.enter) return std::nullopt;
     part.end_at(leave);
     if (enter > part.leave) return std::nullopt;
-    part.begin_at(enter);
+    part.enter = std::max(part.enter, enter);
     return part;
 }
 // [part_in_box]

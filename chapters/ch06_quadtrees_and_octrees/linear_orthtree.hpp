@@ -6,6 +6,7 @@
 
 #include "chapters/ch06_quadtrees_and_octrees/morton.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_cell.hpp"
+#include "common/geometry.hpp"
 #include "common/limit_error.hpp"
 #include "common/observer.hpp"
 
@@ -128,5 +129,22 @@ struct LinearOrthtree {
     }
     // [split]
 };
+
+// [boxes_around]
+/// For each node the box of what its items fill: extend(box, i) makes a box hold item i. Children
+/// come after their parents, so the last is the first to be done.
+template <int D, class Extend>
+std::vector<BasicAabb<D>> boxes_around(const LinearOrthtree<D>& tree, const Extend& extend) {
+    std::vector<BasicAabb<D>> boxes(tree.nodes.size());
+    for (std::size_t i = boxes.size(); i-- > 0;) {
+        const auto& node = tree.nodes[i];
+        const std::size_t children = tree.children(node).size();
+        for (std::size_t k = 0; k < children; ++k) boxes[i].extend(boxes[node.children + k]);
+        for (std::uint32_t item = node.first; node.is_leaf() && item < node.last; ++item)
+            extend(boxes[i], item);
+    }
+    return boxes;
+}
+// [boxes_around]
 
 }  // namespace space

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
 namespace space {
 
@@ -43,7 +44,10 @@ inline constexpr std::array<MortonStep, 6> morton_steps<3>{{{0, 0x00000000001fff
 template <int D>
 constexpr std::uint64_t spread_bits(std::uint32_t number) {
     std::uint64_t bits = number;
-    for (const auto& [shift, mask] : morton_steps<D>) bits = (bits | (bits << shift)) & mask;
+    const auto take = [&](const MortonStep& step) {
+        bits = (bits | (bits << step.shift)) & step.mask;
+    };
+    std::apply([&](const auto&... step) { (take(step), ...); }, morton_steps<D>);  // no loop
     return bits;
 }
 /// Bit D i goes to bit i; all other bits are left out.

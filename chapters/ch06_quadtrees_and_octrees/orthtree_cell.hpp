@@ -103,14 +103,14 @@ struct OrthtreeFrame {
     /// of the root is in the cell next to it; NaN counts as below the root.
     OrthtreeCell<D> cell_of(const Point<D>& point, std::uint32_t depth) const {
         OrthtreeCell<D> cell{depth, {}};
-        const double cells = std::ldexp(1.0, static_cast<int>(depth));
+        const double size = cell_edge(depth), per_size = 1.0 / size, last = edge * per_size - 1.0;
         for (int axis = 0; axis < D; ++axis) {
-            const double along = (double{point[axis]} - corner[axis]) * (cells / edge);
+            const double x = point[axis], along = (x - corner[axis]) * per_size;
             std::uint32_t& place = cell.place[static_cast<std::size_t>(axis)];
             // Arguments in this order: what is not a number goes to place 0.
-            place = static_cast<std::uint32_t>(std::max(0.0, std::min(along, cells - 1.0)));
+            place = static_cast<std::uint32_t>(std::max(0.0, std::min(along, last)));
             // The difference may have been rounded, up to the next plane at most.
-            if (place > 0 && double{point[axis]} < plane(axis, depth, place)) --place;
+            if (place > 0 && x < corner[axis] + double(place) * size) --place;
         }
         return cell;
     }

@@ -30,6 +30,7 @@ struct OrthtreePoints {
     std::size_t size = 0;  ///< points
     OrthtreeFrame<D> frame = {};
     LinearOrthtree<D> cells = {};
+    std::vector<BasicAabb<D>> boxes = {};     ///< of the nodes, around their points
     std::vector<Point<D>> points = {};        ///< copies, in the order of the cells' items
     std::vector<std::uint32_t> indices = {};  ///< of these, among the points given
 
@@ -58,6 +59,9 @@ struct OrthtreePoints {
         for (const std::uint32_t index : indices) tree.points.push_back(points[index]);
         tree.indices = std::move(indices);
         tree.cells = LinearOrthtree<D>::build(std::move(codes), config, observer);
+        tree.boxes = boxes_around(tree.cells, [&](BasicAabb<D>& box, std::uint32_t item) {
+            box.extend(tree.points[item]);
+        });
         return tree;
     }
     // [build]

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "chapters/ch04_kd_trees/point_search.hpp"
-#include "chapters/ch06_quadtrees_and_octrees/linear_orthtree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_cell.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_points.hpp"
 #include "common/geometry.hpp"
@@ -18,7 +17,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace space {
@@ -34,14 +32,14 @@ class OrthtreeSearch {
     using Node = typename Tree::Node;
     /// At each depth the children of one cell, of which one is gone on to.
     static constexpr std::size_t most_waiting = 1 + max_orthtree_depth<D> * (orthants<D> - 1);
-    /// Event: the search goes into a cell.
+    /// Event: the search goes into a node.
     struct Visited {
-        OrthtreeCell<D> cell;
+        std::uint32_t node;
         bool is_leaf;
     };
-    /// Event: nothing in the cell can belong to the answer.
+    /// Event: nothing in the node can belong to the answer.
     struct Pruned {
-        OrthtreeCell<D> cell;
+        std::uint32_t node;
     };
     /// Event: floats can't leave this point out.
     struct Compared {
@@ -56,20 +54,19 @@ class OrthtreeSearch {
     static void run(const Tree& tree, const Point<D>& query, Search& search, Observer& observer) {
         std::array<Waiting, most_waiting> waiting;  // the last is the next
         std::size_t size = 0;
-        waiting[size++] = {&tree.cells.nodes.front(), 0.0f};
+        waiting[size++] = {0, distance_to(tree.boxes[0], query)};
         while (size > 0) {
-            const auto [node, distance] = waiting[--size];
-            const OrthtreeCell<D> cell = tree.cells.cell(*node);
+            const auto [index, distance] = waiting[--size];
+            const Node& node = tree.cells.nodes[index];
             if (distance > search.reach) {
-                observer.observe(Pruned{cell});
+                observer.observe(Pruned{index});
                 continue;
             }
-            observer.observe(Visited{cell, node->is_leaf()});
-            if (node->is_leaf()) look_at(tree, *node, query, search, observer);
-            const std::size_t first = size;
-            for (const Node& child : tree.cells.children(*node)) {
-                const auto box = tree.frame.box(tree.cells.cell(child));
-                const Waiting next{&child, distance_to(box, query)};
+            observer.observe(Visited{index, node.is_leaf()});
+            if (node.is_leaf()) look_at(tree, node, query, search, observer);
+            const std::size_t first = size, children = tree.cells.children(node).size();
+            for (std::uint32_t child = node.children; child < node.children + children; ++child) {
+                const Waiting next{child, distance_to(tree.boxes[child], query)};
                 std::size_t at = size++;
                 for (; at > first && waiting[at - 1].distance <= next.distance; --at)
                     waiting[at] = waiting[at - 1];
@@ -81,19 +78,16 @@ class OrthtreeSearch {
 
   private:
     struct Waiting {
-        const Node* node;
-        float distance;  ///< squared, from the query to the cell
+        std::uint32_t node;
+        float distance;  ///< squared, from the query to the node's box
     };
 
     // [distance]
-    /// From a query to a cell, added up in float just as that of a point is. Rounding never changes
-    /// an order, so it is at most that of any point in the cell; corners that are not floats are
-    /// rounded first, and then, too, no point of floats is beyond them.
-    static float distance_to(const OrthtreeBox<D>& box, const Point<D>& query) {
-        constexpr double largest = std::numeric_limits<float>::max();
-        const Point<D> low(glm::clamp(box.min, -largest, largest)),
-            high(glm::clamp(box.max, -largest, largest));
-        return square(glm::max(glm::max(low - query, query - high), Vector<D>{0.0f}));
+    /// From a query to a box, added up in float just as that of a point is. Rounding never changes
+    /// an order, so it is at most that of any point in the box. The box is what a cell's points
+    /// fill: often smaller than the cell, and made of floats.
+    static float distance_to(const BasicAabb<D>& box, const Point<D>& query) {
+        return square(glm::max(glm::max(box.min - query, query - box.max), Vector<D>{0.0f}));
     }
     // [distance]
     static float square(const Vector2& v) { return v.x * v.x + v.y * v.y; }
@@ -112,32 +106,31 @@ class OrthtreeSearch {
 };
 
 // [points_in_box]
-/// The indices of all points in a closed box, ascending. A cell that lies in the box gives its
-/// range without a look at its points. `found` keeps its memory from query to query.
+/// The indices of all points in a closed box, ascending. Of a cell whose points all lie in it
+/// none is looked at. `found` keeps its memory from query to query.
 template <int D, class Observer = NoObserver>
 void points_in_box(const OrthtreePoints<D>& tree, const BasicAabb<D>& box,
                    std::vector<std::uint32_t>& found, Observer&& observer = {}) {
     using Search = OrthtreeSearch<D>;
     found.clear();
     if (tree.size == 0 || box.is_empty()) return;
-    const OrthtreeBox<D> asked{Double<D>(box.min), Double<D>(box.max)};
-    std::array<const typename Search::Node*, Search::most_waiting> waiting;
+    std::array<std::uint32_t, Search::most_waiting> waiting;
     std::size_t size = 0;
-    waiting[size++] = &tree.cells.nodes.front();
+    waiting[size++] = 0;
     while (size > 0) {
-        const auto& node = *waiting[--size];
-        const OrthtreeCell<D> cell = tree.cells.cell(node);
-        const OrthtreeBox<D> its = tree.frame.box(cell);
-        if (glm::any(glm::lessThan(its.max, asked.min)) ||
-            glm::any(glm::lessThan(asked.max, its.min))) {
-            observer.observe(typename Search::Pruned{cell});
+        const std::uint32_t index = waiting[--size];
+        const auto& node = tree.cells.nodes[index];
+        const BasicAabb<D>& its = tree.boxes[index];
+        if (glm::any(glm::lessThan(its.max, box.min)) ||
+            glm::any(glm::lessThan(box.max, its.min))) {
+            observer.observe(typename Search::Pruned{index});
             continue;
         }
-        observer.observe(typename Search::Visited{cell, node.is_leaf()});
-        const bool all = glm::all(glm::lessThanEqual(asked.min, its.min)) &&
-                         glm::all(glm::lessThanEqual(its.max, asked.max));
+        observer.observe(typename Search::Visited{index, node.is_leaf()});
+        const bool all = box.contains(its);
         if (!all && !node.is_leaf()) {
-            for (const auto& child : tree.cells.children(node)) waiting[size++] = &child;
+            const std::size_t children = tree.cells.children(node).size();
+            for (std::uint32_t k = 0; k < children; ++k) waiting[size++] = node.children + k;
             continue;
         }
         for (std::uint32_t place = node.first; place < node.last; ++place) {

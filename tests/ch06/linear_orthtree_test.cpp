@@ -63,6 +63,7 @@ void check_nodes(const OrthtreePoints<D>& tree, const LinearOrthtreeConfig& conf
         if (!node.is_leaf()) REQUIRE(next == node.last);
         if (config.skip_chains && !node.is_leaf()) REQUIRE(cells.children(node).size() > 1);
         REQUIRE(node.depth <= cells.depth);
+        REQUIRE(node.depth <= config.max_depth);
     }
     REQUIRE(parents[0] == 0);
     REQUIRE(std::count(parents.begin(), parents.end(), 1) == std::ptrdiff_t(parents.size() - 1));
