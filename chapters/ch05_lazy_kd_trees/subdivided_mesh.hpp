@@ -62,10 +62,10 @@ class SubdividedMesh {
         }
         return {Point3(low - margin * size), Point3(high + margin * size)};
     }
-    /// With u = 2^-53, and L the size of a corner and of its way outwards together, on one axis. A
-    /// point is off from the exact one by two roundings of each mean (the products with whole
-    /// numbers are exact), one of the product with the height and one of the sum: at most 4 u L.
-    /// The hull is off by one in `way`, one in `from + way` and one where it is set outwards: 3 u
+    /// With u53 = 2^-53, and L the size of a corner and of its way outwards together, on one axis.
+    /// A point is off from the exact one by two roundings of each mean (the products with whole
+    /// numbers are exact), one of the product with the height and one of the sum: at most 4 u53 L.
+    /// The hull is off by one in `way`, one in `from + way` and one where it is set outwards: 3 u53
     /// L. And the last rounding, to float, keeps the order.
     static constexpr double margin = 8.0 * 0x1p-53;
     // [bounds]
