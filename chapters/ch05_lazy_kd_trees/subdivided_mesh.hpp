@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/geometry.hpp"
+#include "common/limit_error.hpp"
 #include "common/mesh.hpp"
 #include "common/pcg32.hpp"
 
@@ -18,7 +19,7 @@ namespace space {
 
 /// How finely a mesh is cut, and how high its bumps are.
 struct SubdividedMeshConfig {
-    std::uint32_t levels = 5;  ///< each cuts every edge in two: 4^levels triangles a face
+    std::uint32_t levels = 5;  ///< each cuts every edge in two: 4^levels triangles a face; to 15
     double height = 0.1;       ///< of the highest bump, outwards
     double wave = 0.5;         ///< length of the longest bumps; the others are halves of it
     std::uint32_t waves = 4;
@@ -31,8 +32,10 @@ class SubdividedMesh {
   public:
     using Config = SubdividedMeshConfig;
 
+    /// @throws LimitError where 32 bits can't number the triangles of one face
     explicit SubdividedMesh(TriangleMesh mesh, const Config& config = {})
         : mesh_(std::move(mesh)), config_(config), outwards_(mesh_.vertices.size()) {
+        if (config.levels > 15) throw LimitError("subdivided mesh: more than 15 levels (levels)");
         std::vector<Double3> sums(mesh_.vertices.size(), Double3(0.0));
         for (std::size_t face = 0; face < mesh_.faces.size(); ++face)
             for (const std::uint32_t vertex : mesh_.faces[face])
