@@ -217,6 +217,19 @@ std::string with_alternatives(const std::string& page) {
     });
 }
 
+std::string with_table_heads(const std::string& page) {
+    return replace_between(page, "<table class=\"markdownTable\">", "</table>", [](auto table) {
+        constexpr std::string_view head = "<tr class=\"markdownTableHead\">", end = "</tr>",
+                                   close = "</table>";
+        const std::size_t at = table.find(head), after = table.find(end, at);
+        if (after == table.npos) return std::string(table);
+        const std::size_t rows = after + end.size();
+        return fmt::format("{}<thead>{}</thead><tbody>{}</tbody>{}", table.substr(0, at),
+                           table.substr(at, rows - at),
+                           table.substr(rows, table.size() - rows - close.size()), close);
+    });
+}
+
 std::string menu_without_scripts(const std::string& navigation) {
     static const std::regex entry("\\n    \\[ \"([^\"]*)\", \"([^\"]*\\.html)\", null \\]");
     std::string menu = "<noscript><nav class=\"plain-menu\"><a href=\"index.html\">The book</a>";
@@ -236,7 +249,7 @@ void finish_pages(const std::filesystem::path& site) {
         if (entry.path().extension() != ".html") continue;
         std::string page = read_file(entry.path());
         page = kept_together(without_guesses(dedent_fragments(without_summary(page))));
-        page = inline_drawings(with_alternatives(page), site);
+        page = inline_drawings(with_table_heads(with_alternatives(page)), site);
         constexpr std::string_view content = "<div id=\"doc-content\">\n";
         if (const std::size_t at = page.find(content); at != page.npos)
             page.insert(at + content.size(), menu);

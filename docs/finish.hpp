@@ -28,6 +28,9 @@ std::string kept_together(const std::string& page);
 /// A picture's caption is its text for those who don't see it.
 std::string with_alternatives(const std::string& page);
 
+/// A table's first row is its head, which stands again on each sheet that the table reaches.
+std::string with_table_heads(const std::string& page);
+
 /// The book's pages as links, for readers without scripts; Doxygen makes its menu by one, from
 /// navtreedata.js.
 std::string menu_without_scripts(const std::string& navigation);

@@ -203,6 +203,7 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
 /// text, which is read on a terminal, too.
 std::string typeset(std::string text) {
     static const std::pair<std::regex, const char*> rules[] = {
+        {std::regex(R"(\*u(24|53)\*)"), "*u*<sub>$1</sub>"},
         {std::regex(R"(\^-(\w+))"), "<sup>−$1</sup>"},
         {std::regex(R"(\^(\w+))"), "<sup>$1</sup>"},
         {std::regex(R"(\blog2\b)"), "log<sub>2</sub>"},

@@ -34,6 +34,7 @@ mount --bind /dev "$place/dev"
 mount -t devpts devpts "$place/dev/pts"
 mount -t tmpfs shm "$place/dev/shm"
 cp /etc/resolv.conf "$place/etc/resolv.conf"
+echo '127.0.0.1 localhost' >"$place/etc/hosts"  # as Debian's installer writes it; chromedriver is spoken to by name
 for file in /etc/apt/apt.conf.d/*proxy*; do  # a machine that reaches its mirror through a proxy
     [[ ! -e $file ]] || cp "$file" "$place/etc/apt/apt.conf.d/"
 done

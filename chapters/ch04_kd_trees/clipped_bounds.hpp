@@ -56,9 +56,9 @@ inline float float_above(double x) {
 /// How far a clipped corner may be off on an axis where the polygon's coordinates go up to
 /// `largest`, and how much wider each half space is made.
 ///
-/// With u = 2^-53: a cut is from + s (to - from), 0 <= s <= 1. s carries three roundings, the
-/// difference, the product and the sum one each: 11 u largest and terms with u^2, less than 12 u
-/// largest; after 2 D cuts at most 2 D times that. Let each computed corner stand for the exact
+/// With u53 = 2^-53: a cut is from + s (to - from), 0 <= s <= 1. s carries three roundings, the
+/// difference, the product and the sum one each: 11 u53 largest and terms with u53^2, less than 12
+/// u53 largest; after 2 D cuts at most 2 D times that. Let each computed corner stand for the exact
 /// point that the same s gives on the exact edge: these points span a convex part of the polygon's
 /// plane. What a cut takes from it are ears, spanned by corners that were computed to lie outside
 /// and by two cuts, all of them beyond the *wider* half space or on its plane, and so, exactly, not

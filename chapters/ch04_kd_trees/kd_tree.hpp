@@ -48,11 +48,12 @@ struct KdRay {
 
 /// The part [enter, leave] of a ray: not less than what lies in a cell, in exact arithmetic.
 ///
-/// With u = 2^-53 let t be a computed distance and T the exact one: |t - T| <= gamma(3) |T|. An end
-/// that a plane makes is set 8 u |t| farther out, which is exact, with one rounding of the sum: all
-/// in all beyond T by more than 3 u |T| and the terms with u^2. So where another plane's computed
-/// distance lies outside of the end, by any amount, its exact distance lies outside of T, and the
-/// comparison needs no margin of its own. (7 u would leave nothing for the terms with u^2.)
+/// With u53 = 2^-53 let t be a computed distance and T the exact one: |t - T| <= gamma(3) |T|. An
+/// end that a plane makes is set 8 u53 |t| farther out, which is exact, with one rounding of the
+/// sum: all in all beyond T by more than 3 u53 |T| and the terms with u53^2. So where another
+/// plane's computed distance lies outside of the end, by any amount, its exact distance lies
+/// outside of T, and the comparison needs no margin of its own. (7 u53 would leave nothing for the
+/// terms with u53^2.)
 struct RayPart {
     double enter, leave;
 

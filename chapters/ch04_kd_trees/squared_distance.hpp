@@ -34,19 +34,19 @@ double squared_distance(const Point<D>& p, const Point<D>& q) {
 
 /// Roundings in a term of the sum, at most: its difference's, which the square has twice, the
 /// product's, and D - 1 of sums (0 + x is exact). No term is negative, so the sum is wrong by no
-/// larger a factor than its worst term: with u for the unit roundoff it lies between (1 - u)^n and
-/// (1 + u)^n times the true one, n = D + 2.
+/// larger a factor than its worst term: with u53 = 2^-53 it lies between (1 - u53)^n and (1 +
+/// u53)^n times the true one, n = D + 2.
 template <int D>
 constexpr int distance_roundings = D + 2;
 
-/// The largest error of squared_distance, as a part of the true one: n u, and one u more for the
-/// higher powers.
+/// The largest error of squared_distance, as a part of the true one: n u53, and one u53 more for
+/// the higher powers.
 template <int D>
 constexpr double squared_distance_bound = (distance_roundings<D> + 1) * 0x1p-53;
 
 /// Whether a < b is certain of two true values, known within squared_distance_bound. Each may be
-/// off by n u; then come the product's own rounding and the higher powers of u, less than one u
-/// each.
+/// off by n u53; then come the product's own rounding and the higher powers of u53, less than one
+/// u53 each.
 template <int D>
 bool certainly_less(double a, double b) {
     return a * (1.0 + (2 * distance_roundings<D> + 2) * 0x1p-53) < b;
@@ -83,12 +83,12 @@ Expansion<8 * D> exact_squared_distance(const Point<D>& p, const Point<D>& q) {
 }
 
 // [reach]
-/// A float distance: the sum of squares in float, axis by axis. With u = 2^-24 it lies between
-/// (1 - u)^n and (1 + u)^n times the true one, or up to D 2^-150 < 2^-148 beyond where squares
+/// A float distance: the sum of squares in float, axis by axis. With u24 = 2^-24 it lies between (1
+/// - u24)^n and (1 + u24)^n times the true one, or up to D 2^-150 < 2^-148 beyond where squares
 /// underflow; an overflow gives infinity, which every reach below may be.
 
 /// Up to this float distance a point may be one of those within `squared` (in double).
-/// Rounding the reach to float takes one u, or 2^-150.
+/// Rounding the reach to float takes one u24, or 2^-150.
 template <int D>
 float float_reach(double squared) {
     const double reach = squared * (1.0 + (distance_roundings<D> + 2) * 0x1p-24) + 0x1p-146;
@@ -96,7 +96,7 @@ float float_reach(double squared) {
 }
 
 /// Up to this float distance a point may in truth be no farther than one whose float distance is
-/// `distance`. Either may be off by n u and 2^-148; two u more for the roundings here and the
+/// `distance`. Either may be off by n u24 and 2^-148; two u24 more for the roundings here and the
 /// higher powers.
 template <int D>
 float unsure_up_to(float distance) {

@@ -8,6 +8,7 @@
 #include "chapters/ch04_kd_trees/kd_nodes.hpp"
 #include "chapters/ch04_kd_trees/kd_splitter.hpp"
 #include "chapters/ch05_lazy_kd_trees/chunks.hpp"
+#include "chapters/ch05_lazy_kd_trees/shared_limit.hpp"
 #include "common/geometry.hpp"
 #include "common/limit_error.hpp"
 #include "common/observer.hpp"
@@ -115,6 +116,7 @@ class LazyKdNodes {
           words_(4 * polygons.size()),
           references_(2 * polygons.size()),
           copies_(2 * polygons.size()),
+          references_left_(config.max_references),
           observer_(std::move(observer)) {
         if (empty()) return;
         count_references(polygons.size());
@@ -297,7 +299,7 @@ class LazyKdNodes {
             named = add_list(part.references.size());
             place = words_.add(part.nodes.size() - 2, KdNode::largest) - 2;
         } catch (...) {
-            references_counted_ -= shared;
+            references_left_.give_back(shared);
             throw;
         }
         const auto moved = [&](const KdNode& node) {
@@ -313,16 +315,10 @@ class LazyKdNodes {
     }
     // [all_below]
 
-    /// Of all threads together, and never more than may be, not for a moment: else one thread's
-    /// failure would take the room of another. So to count none always works.
     void count_references(std::size_t more) const {
-        std::size_t counted = references_counted_.load();
-        do {
-            if (more > config_.max_references - counted)
-                throw LimitError("lazy k-d tree: more than " +
-                                 std::to_string(config_.max_references) +
-                                 " references (max_references)");
-        } while (!references_counted_.compare_exchange_weak(counted, counted + more));
+        if (!references_left_.take(more))
+            throw LimitError("lazy k-d tree: more than " + std::to_string(config_.max_references) +
+                             " references (max_references)");
     }
 
     template <class Visit>
@@ -356,7 +352,7 @@ class LazyKdNodes {
     mutable Chunks<std::uint64_t> words_;       ///< the nodes, by atomic access alone
     mutable Chunks<std::uint32_t> references_;  ///< polygons, by leaf
     mutable Chunks<Simplex<D>> copies_;         ///< of them, at the same places
-    mutable std::atomic<std::size_t> references_counted_{0};
+    mutable SharedLimit<> references_left_;
     [[no_unique_address]] mutable Observer observer_;
 };
 

@@ -22,7 +22,8 @@
 namespace space {
 
 /// The accelerator, watched. With the exact test its answers are those of the naive loop, bit for
-/// bit, whatever others have asked before or ask at the same time.
+/// bit, whatever others have asked before or ask at the same time. One that was never built, or has
+/// been moved from, has no nodes: nothing is hit.
 template <TriangleTest Test, class Observer>
 class WatchedLazyKdTree {
   public:
@@ -39,8 +40,11 @@ class WatchedLazyKdTree {
         tree.mailboxes_ = config.mailboxes;
         return tree;
     }
+    /// Of a tree that was built.
     const Nodes& nodes() const { return *nodes_; }
-    void build_all() const { nodes_->build_all(); }
+    void build_all() const {
+        if (nodes_) nodes_->build_all();
+    }
 
     template <class Counts>
     std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
@@ -53,6 +57,7 @@ class WatchedLazyKdTree {
 
     /// Of the tree as it stands, where a node that waits is a leaf. Not while rays make others.
     TreeShape shape() const {
+        if (!nodes_) return {};
         const LazyKdCounts counts = nodes_->counts();
         double cost = 0.0;
         nodes_->for_each_cell([&](const typename Nodes::Cell& cell) {
@@ -73,6 +78,7 @@ class WatchedLazyKdTree {
     // [search]
     template <class Counts, class Found>
     void search(const Ray& ray, Counts& counts, const Found& found) const {
+        if (!nodes_) return;
         Mailbox mailbox(mailboxes_);
         double limit = infinity;
         walk_cells(*nodes_, ray, counts, [&](std::uint32_t node) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/geometry.hpp"
+#include "common/limit_error.hpp"
 #include "common/mesh.hpp"
 #include "common/pcg32.hpp"
 
@@ -18,7 +19,7 @@ namespace space {
 
 /// How finely a mesh is cut, and how high its bumps are.
 struct SubdividedMeshConfig {
-    std::uint32_t levels = 5;  ///< each cuts every edge in two: 4^levels triangles a face
+    std::uint32_t levels = 5;  ///< each cuts every edge in two: 4^levels triangles a face; to 15
     double height = 0.1;       ///< of the highest bump, outwards
     double wave = 0.5;         ///< length of the longest bumps; the others are halves of it
     std::uint32_t waves = 4;
@@ -31,8 +32,10 @@ class SubdividedMesh {
   public:
     using Config = SubdividedMeshConfig;
 
+    /// @throws LimitError where 32 bits can't number the triangles of one face
     explicit SubdividedMesh(TriangleMesh mesh, const Config& config = {})
         : mesh_(std::move(mesh)), config_(config), outwards_(mesh_.vertices.size()) {
+        if (config.levels > 15) throw LimitError("subdivided mesh: more than 15 levels (levels)");
         std::vector<Double3> sums(mesh_.vertices.size(), Double3(0.0));
         for (std::size_t face = 0; face < mesh_.faces.size(); ++face)
             for (const std::uint32_t vertex : mesh_.faces[face])
@@ -62,10 +65,10 @@ class SubdividedMesh {
         }
         return {Point3(low - margin * size), Point3(high + margin * size)};
     }
-    /// With u = 2^-53, and L the size of a corner and of its way outwards together, on one axis. A
-    /// point is off from the exact one by two roundings of each mean (the products with whole
-    /// numbers are exact), one of the product with the height and one of the sum: at most 4 u L.
-    /// The hull is off by one in `way`, one in `from + way` and one where it is set outwards: 3 u
+    /// With u53 = 2^-53, and L the size of a corner and of its way outwards together, on one axis.
+    /// A point is off from the exact one by two roundings of each mean (the products with whole
+    /// numbers are exact), one of the product with the height and one of the sum: at most 4 u53 L.
+    /// The hull is off by one in `way`, one in `from + way` and one where it is set outwards: 3 u53
     /// L. And the last rounding, to float, keeps the order.
     static constexpr double margin = 8.0 * 0x1p-53;
     // [bounds]

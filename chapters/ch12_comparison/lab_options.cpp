@@ -179,6 +179,8 @@ LabOptions parse_lab_options(int argc, char** argv) {
     list_scenes_if_asked(options.common);
 
     options.structures = split(structures);
+    if (std::ranges::count(options.structures, "") > 0)
+        throw usage_error("--structure: the name of a structure is missing (see --structure list)");
     options.query = query == "any" ? Query::any : Query::closest;
     if (*camera_numbers) options.camera = parse_camera(**camera_numbers);
     if (options.common.threads == 0)

@@ -22,7 +22,7 @@ print_page() {
 
 command_print() {
     local page title browser='' tool sheet=1
-    (($# == 0)) || die 2 'print: takes no more'
+    (($# == 0)) || die 2 'print: takes no arguments'
     step_count=5
     set_up build run print
     for tool in chromium chromium-browser google-chrome; do

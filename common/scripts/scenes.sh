@@ -41,7 +41,7 @@ END
 }
 
 command_scenes() {
-    (($# == 0)) || die 2 'scenes: takes no more'
+    (($# == 0)) || die 2 'scenes: takes no arguments'
     scenes=$root/build/scenes
     step_count=5
     set_up build

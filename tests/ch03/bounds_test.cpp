@@ -283,6 +283,7 @@ TEST_CASE("a ray in the plane may meet it anywhere on its way, whatever rounding
         const Point3 b = point(), c = point();
         const SplitPlane<3> plane({{0, 0, 0}, b, c});
         above += plane.distance(Double3(c)) != 0.0;  // c is exactly in the plane, and b along it
+        CHECK(!side_filter(plane, Double3(c), 0.0));
         for (const double leave : {0.0, 1024.0}) {
             const PlaneCrossing crossing = cross_plane<3>({c, b}, plane, 0.0, leave);
             CHECK(crossing.earliest <= 0.0);
@@ -290,6 +291,19 @@ TEST_CASE("a ray in the plane may meet it anywhere on its way, whatever rounding
         }
     }
     CHECK(above > 100);
+}
+
+TEST_CASE(
+    "the filter takes no point for one beyond the plane that its error may have brought there") {
+    const SplitPlane<3> ground({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    for (const double off : {0x1p-40, 0x1p-10, 1.0})
+        for (const double side : {-1.0, 1.0}) {
+            const auto filtered = [&](double height) {
+                return side_filter(ground, Double3(3, -5, side * height), off);
+            };
+            CHECK(!filtered(0.999 * off));  // the point itself may be a thousandth beyond
+            CHECK(filtered(2.1 * off) == static_cast<int>(side));
+        }
 }
 
 TEST_CASE(
@@ -357,6 +371,23 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("double knows where three planes meet while they aren't too nearly parallel, to 2^-27") {
+    const Triangle ground{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    for (int k = 0; k <= 60; ++k) {  // a plane that rises by 2^-k along x, and one across y
+        const float rise = std::ldexp(1.0f, -k);
+        const std::array planes{
+            SplitPlane<3>({{0, 0, -0.375f * rise}, {1, 0, 0.625f * rise}, {0, 1, -0.375f * rise}}),
+            SplitPlane<3>({{0, 0.25f, 0}, {0, 0.25f, 1}, {1, 0.25f, 0}})};
+        const Approximation<3> at =
+            approximate(Meet<3>{ground, {Carrier::plane(0), Carrier::plane(1)}, planes});
+        INFO("2^-" << k);
+        CHECK(std::abs(at.at.x - 0.375) <= at.error);
+        CHECK(at.error < 0x1p-27);
+        CHECK((k > 12 || !is_rounded(at)));
+        CHECK((k < 25 || is_rounded(at)));
+    }
+}
+
 TEST_CASE("an edge is cut where it is, though double puts its far end behind the plane") {
     Pcg32 random(9);
     int turned = 0;
@@ -366,11 +397,11 @@ TEST_CASE("an edge is cut where it is, though double puts its far end behind the
                     by = number(), cx = number(), cy = number();
         // The differences lose the first corner's last bits.
         const SplitPlane<3> plane({{ax, ay, 0}, {bx, by, 0}, {cx, cy, number()}});
-        // b is in the plane, and computed `noise` above it. The edge begins 2^-35 of that above the
-        // plane, and ends a 64th of it below.
+        // b is in the plane, and computed `noise` above it. The edge begins 2^-40 of that above the
+        // plane, and ends 2^-10 of it below.
         const double noise = plane.distance({bx, by, 0}) / plane.normal.z;
         if (noise == 0.0) continue;
-        const Triangle polygon{{ax, ay, 0x1p-35 * noise}, {bx, by, -0x1p-6 * noise}, {0, 9, 9}};
+        const Triangle polygon{{ax, ay, 0x1p-40 * noise}, {bx, by, -0x1p-10 * noise}, {0, 9, 9}};
         turned += plane.distance(Double3(polygon.b)) / plane.normal.z * noise > 0.0;
         const std::array planes{plane};
         const Meet<3> meet{polygon, {Carrier::original(0), Carrier::plane(0)}, planes};
@@ -379,16 +410,70 @@ TEST_CASE("an edge is cut where it is, though double puts its far end behind the
     CHECK(turned > 100);
 }
 
+namespace {
+
+/// Through points of size 1 or 2.
+Triangle some_triangle(Pcg32& random) {
+    const auto point = [&] {
+        const float x = random.uniform(1.0f, 2.0f), y = random.uniform(1.0f, 2.0f);
+        return Point3(x, y, random.uniform(1.0f, 2.0f));
+    };
+    const Point3 a = point(), b = point();
+    return {a, b, point()};
+}
+/// Far from the points that make the plane.
+Triangle nearly_through_the_origin(Pcg32& random) {
+    const auto [a, b, c] = some_triangle(random);
+    return {a, b, -0.7f * a - 0.4f * b};
+}
+Triangle through_the_origin(Pcg32& random) {
+    const auto [a, b, c] = some_triangle(random);
+    return {{0, 0, 0}, b, c};
+}
+
+}  // namespace
+
+TEST_CASE("an edge that begins beside a plane is cut as near as its height there is known") {
+    Pcg32 random(11);
+    for (int i = 0; i < 1000; ++i) {
+        const std::array planes{SplitPlane<3>(nearly_through_the_origin(random))};
+        const Point3 along(planes[0].normal / planes[0].length);
+        const Triangle polygon{{0, 0, 0}, along.x > 0.0f ? along : -along, {1, 2, 3}};
+        const Meet<3> meet{polygon, {Carrier::original(0), Carrier::plane(0)}, planes};
+        CHECK(part_of_point(approximate(meet), exact_point(meet)) < 1.0);
+    }
+}
+
+TEST_CASE("a corner beside its polygon's first one is as near as planes of far points are known") {
+    Pcg32 random(12);
+    for (int i = 0; i < 1000; ++i) {
+        const Triangle polygon = through_the_origin(random), other = through_the_origin(random);
+        const std::array planes{SplitPlane<3>(other),
+                                SplitPlane<3>(nearly_through_the_origin(random))};
+        for (const std::uint32_t first : {0u, 1u}) {
+            const std::array carriers{Carrier::plane(first), Carrier::plane(1 - first)};
+            const Meet<3> meet{polygon, carriers, planes};
+            CHECK(part_of_point(approximate(meet), exact_point(meet)) < 1.0);
+        }
+    }
+}
+
 TEST_CASE("far from the origin a corner's own rounding is in its error") {
     Pcg32 random(10);
     double worst = 0.0;
     for (int i = 0; i < 300; ++i) {
         Floats<27> numbers;
         for (float& x : numbers) x = 0x1p20f + 0.125f * static_cast<float>(random.below(64));
-        worst = std::max(worst, part_of_three_planes(numbers));
+        const Triangle polygon = simplex<3>(numbers, 0);
+        const std::array planes{SplitPlane<3>(simplex<3>(numbers, 3)),
+                                SplitPlane<3>(simplex<3>(numbers, 6))};
+        if (!meet_in_a_point(polygon, planes[0].through, planes[1].through)) continue;
+        for (const Carrier first : {Carrier::original(0), Carrier::plane(1)}) {
+            const Meet<3> meet{polygon, {first, Carrier::plane(0)}, planes};
+            worst = std::max(worst, part_of_point(approximate(meet), exact_point(meet)));
+        }
     }
-    fmt::print("  meet of three planes, far away: the largest error is {:.3f} of its bound\n",
-               worst);
+    fmt::print("  corners, far away: the largest error is {:.3f} of its bound\n", worst);
     CHECK(worst < 1.0);
     CHECK(worst > 0.0);
 }

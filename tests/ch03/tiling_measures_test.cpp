@@ -164,6 +164,34 @@ TEST_CASE("a ray through a corner meets all pieces there, however roughly double
     CHECK(rough > 30);
 }
 
+TEST_CASE("a ray meets the same fragments, wherever within its error a corner was noted") {
+    const BspTree<3> tree = cut_by_last(cut_triangle, Grade::exact);
+    const FragmentRays truth(tree, Grade::exact);
+    Pcg32 random(6);
+    int wrong = 0, hits = 0;
+    for (int i = 0; i < 4'000; ++i) {
+        BspTree<3> noted = tree;
+        for (Fragment<3>& fragment : noted.fragments)
+            for (auto& corner : fragment.corners) {
+                if (corner.at.x != 1.0) continue;  // not a cut
+                corner.error = 0x1p-4;
+                for (int axis = 0; axis < 2; ++axis)
+                    corner.at[axis] += random.below(2) ? corner.error : -corner.error;
+            }
+        const float x = 1.0f + random.uniform(-0.2f, 0.2f), y = random.uniform(-0.5f, 3.5f);
+        // From so near that only what is off across the ray counts.
+        const Ray ray{{x, y, 0x1p-10f}, {0, 0, -1}};
+        const FragmentRays rays(noted, Grade::exact);
+        for (std::size_t f = 0; f < tree.fragments.size(); ++f) {
+            const bool met = truth.meets(ray, tree.fragments[f]);
+            hits += met;
+            wrong += rays.meets(ray, noted.fragments[f]) != met;
+        }
+    }
+    CHECK(hits > 1'000);
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("a ray exactly through a polygon's own corner meets it, whatever roundings say") {
     Pcg32 random(5);
     const auto number = [&] {  // sums of two are exact
@@ -174,9 +202,13 @@ TEST_CASE("a ray exactly through a polygon's own corner meets it, whatever round
         return Point3(x, y, number());
     };
     int missed = 0;
-    for (int i = 0; i < 200; ++i) {
-        const Ray ray{point(), point()};
-        const Point3 b = point();
+    for (int i = 0; i < 1'000; ++i) {
+        Ray ray{point(), point()};
+        Point3 b = point();
+        if (i % 2) {  // only two products, and those cancel
+            ray.direction.y = 0.0f;
+            b = ray.origin + Vector3(0, number(), 0);
+        }
         const std::vector<Triangle> one{{ray.origin + ray.direction, b, point()}};
         const BspTree<3> tree = BspBuilder<3>::build(one);
         missed += !FragmentRays(tree, Grade::exact).meets(ray, tree.fragments[0]);

@@ -2,6 +2,7 @@
 // end the eager tree.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch05_lazy_kd_trees/lazy_kd_tree.hpp"
+#include "common/limit_error.hpp"
 #include "common/random.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
@@ -19,6 +20,7 @@
 #include <new>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace space {
@@ -282,30 +284,54 @@ TEST_CASE("what stands holds no list: a few allocations, however many nodes; in 
 }
 
 TEST_CASE("memory that ends at any moment leaves the node as it was, and its share of the limit") {
-    const auto triangles = scenes::soup(20, 0.5f, 15);  // more references than a first chunk has
+    const auto triangles = scenes::soup(32, 0.8f, 15);
     const KdSplitter<3> splitter(triangles, {});
     KdBuilder<3> builder(splitter, {});
     NoObserver none;
     const auto eager = builder.run(splitter.root(), none);
-    for (const std::size_t at_once : {0, 10, 20}) {
+    // More than the first chunk has: another is made when the limit has been asked.
+    CHECK(eager.references.size() > 2 * triangles.size());
+    for (const std::size_t at_once : {0, 10, 32}) {
         CAPTURE(at_once);
         const LazyKdNodes<3> lazy(triangles,
                                   {.max_references = builder.references(), .at_once = at_once});
         int failures = 0;
+        bool is_refused = false;
         for (bool is_done = false; !is_done; ++failures) {
             test::allocations_left = failures;
             try {
                 lazy.build_all();
                 is_done = true;
             } catch (const std::bad_alloc&) {
+            } catch (const LimitError&) {
+                is_done = is_refused = true;
             }
             test::allocations_left = -1;
         }
         CHECK(failures > 20);
+        CHECK_FALSE(is_refused);
         const SameTree same(eager, lazy);
         CHECK(same.fault() == "");
         CHECK(same.waiting() == 0);
     }
+}
+
+TEST_CASE(
+    "a tree that was never built, or has been moved from, is not hit and has nothing to make") {
+    const std::vector<Triangle> triangles{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    const Ray ray{{0.25f, 0.25f, 1}, {0, 0, -1}};
+    auto built = LazyKdTree<>::build(triangles);
+    const LazyKdTree<> moved = std::move(built), never{};
+    for (const LazyKdTree<>* tree : {&std::as_const(built), &never}) {
+        CHECK(!closest_hit(*tree, ray));
+        CHECK(!any_hit(*tree, ray));
+        CHECK_NOTHROW(tree->build_all());
+        CHECK(tree->shape().nodes.value_or(0) == 0);
+        CHECK(tree->shape().references == 0);
+    }
+    CHECK(closest_hit(moved, ray));
+    built = LazyKdTree<>::build(triangles);  // and can be built again
+    CHECK(any_hit(built, ray));
 }
 
 TEST_CASE("shape is that of the tree as it stands, where what waits is a leaf") {

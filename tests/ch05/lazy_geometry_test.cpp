@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 using namespace space;
@@ -206,6 +207,30 @@ TEST_CASE("the bounds of a subdivided face reach no farther than its highest bum
     }
 }
 
+TEST_CASE(
+    "a subdivided face's bounds hold its highest bump, where double puts that a float higher") {
+    // The lowest point is 1 - 2^-25 - 2^-55. In double it is the middle between 1 and the float
+    // below, and rounds up to 1.
+    const double lowest_bump = 0x1p-25 + 0x1p-55;
+    const TriangleMesh flat{.vertices = {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}, .faces = {{0, 1, 2}}};
+    const SubdividedMesh source(flat, {.levels = 1, .height = lowest_bump});
+    CHECK(source.bounds(0).min.z == 1.0f - 0x1p-24f);
+    CHECK(source.bounds(0).max.z >= 1.0f);
+    CHECK(source.bounds(0).max.z <= 1.0f + 0x1p-23f);
+}
+
+TEST_CASE("up to 15 levels a face's triangles are numbered by 32 bits, and more are refused") {
+    const TriangleMesh flat{.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, .faces = {{0, 1, 2}}};
+    const auto with = [&](std::uint32_t levels) {
+        return SubdividedMesh(flat, {.levels = levels});
+    };
+    CHECK(with(15).patch_triangles() == 1u << 30);
+    for (const std::uint32_t levels : {16u, 31u, 32u, ~0u}) {
+        CHECK_THROWS_AS(with(levels), LimitError);
+        CHECK_THROWS_WITH(with(levels), "subdivided mesh: more than 15 levels (levels)");
+    }
+}
+
 TEST_CASE("a closed mesh stays closed when it is subdivided: each edge has its twin, bit for bit") {
     const SubdividedMesh source(ball({0.1, 0.2, 0.3}, 1.0, 2), {.levels = 3, .height = 0.4});
     using Edge = std::array<float, 6>;
@@ -306,6 +331,16 @@ TEST_CASE("whoever asks for any hit makes no patch after the first one that is h
         hits += hit_patches;
     }
     CHECK(hits > 20);
+}
+
+TEST_CASE("lazy geometry that has been moved from is not hit") {
+    auto built = LazyGeometry<Squares>::build({});
+    const auto moved = std::move(built);
+    const Ray ray{.origin = {0, 0.25f, 0}, .direction = {1, 0, 0}};
+    CHECK(!closest_hit(built, ray));
+    CHECK(!any_hit(built, ray));
+    CHECK(built.made().patches == 0);
+    CHECK(closest_hit(moved, ray));
 }
 
 TEST_CASE("more triangles than 32 bits can number are refused, and as many are not") {

@@ -122,6 +122,15 @@ TEST_CASE("a picture's caption is its alternative text, and the menu stands with
         "href=\"a.html\">1. A &amp; B</a> <a href=\"files.html\">Code</a></nav></noscript>\n");
 }
 
+TEST_CASE("a table's first row is its head") {
+    const std::string head = "<tr class=\"markdownTableHead\">\n<th>a</th></tr>",
+                      rows = "\n<tr class=\"markdownTableRowOdd\">\n<td>1</td></tr>\n",
+                      open = "<table class=\"markdownTable\">\n", close = "</table>";
+    CHECK(with_table_heads("<p>" + open + head + rows + close + "</p>") ==
+          "<p>" + open + "<thead>" + head + "</thead><tbody>" + rows + "</tbody>" + close + "</p>");
+    CHECK(with_table_heads(open + rows + close) == open + rows + close);
+}
+
 TEST_CASE("a formula is found by what one would say or type for it") {
     const auto text = [](const std::string& body) {
         return search_entries("<div class=\"contents\">" + body + "</div><!-- contents -->",

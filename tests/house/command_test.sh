@@ -55,7 +55,7 @@ ends 2 'figure 9.9: there is none; there are: 1.1 ' figures 3.4 9.9
 ends 2 'figure 3_: there is none' figures 3_
 ends 2 'not both' figures --dark --light
 ends 2 'follow the reader' figures --dark --update
-ends 2 'takes no more' print 1
+ends 2 'takes no arguments' print 1
 ends 0 'g\+\+ ' doctor
 
 # Nothing is installed, and what is missing is named, with --no-install.

@@ -537,8 +537,9 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
     };
     const std::vector<Wrong> wrongs{
         {mesh.with("--structure bvh,naive"), 2, "bvh"},
-        {mesh.with("--structure").with_word(""), 2, "--structure"},
-        {mesh.with("--structure naive,"), 2, "--structure"},
+        {mesh.with("--structure").with_word(""), 2,
+         "--structure: the name of a structure is missing"},
+        {mesh.with("--structure naive,"), 2, "--structure: the name of a structure is missing"},
         {mesh.with("--triangle-test none"), 2, "none"},
         {mesh.with("--query nearest"), 2, "--query"},
         {{}, 2, "--mesh"},

@@ -14,7 +14,7 @@ int exact_sign(const Point2& a, const Point2& b, const Point2& c) {
         .sign();
 }
 
-/// |determinant| in units of u (|left| + |right|), to within a float's rounding.
+/// |determinant| in units of u24 (|left| + |right|), to within a float's rounding.
 double certainty(const Point2& a, const Point2& b, const Point2& c) {
     const Double2 ab = Double2(b) - Double2(a), ac = Double2(c) - Double2(a);
     const double left = ab.x * ac.y, right = ab.y * ac.x;
@@ -55,7 +55,7 @@ TEST_CASE("no point around (1/2, 1/2) is on the wrong side of the line through (
             check(Point2(0.5f) + 0x1p-24f * Point2(i, j), {12, 12}, {24, 24});
 }
 
-TEST_CASE("three points whose determinant is off by 2.6 u (|left| + |right|), at any scale") {
+TEST_CASE("three points whose determinant is off by 2.6 u24 (|left| + |right|), at any scale") {
     for (const float scale : {1.0f, 0x1p-20f, 0x1p20f})
         check(scale * Point2(-0x1.aa1798p-3f, -0x1.02c652p-1f),
               scale * Point2(0x1.d83d34p-1f, 0x1.057c04p-1f),

@@ -5,10 +5,10 @@
 /// Does the way from *a* over *b* to *c* turn to the left (1), to the right (-1) or not at all (0)?
 /// The sign of a determinant tells, but in floats it is wrong for some points that nearly lie on a
 /// line. `exact(a, b, c)` always tells right, and takes ten times as long. Derive by how much the
-/// computed determinant can be off, in terms of |*left*| + |*right*| and the unit roundoff *u* =
+/// computed determinant can be off, in terms of `|left| + |right|` and the unit roundoff *u24* =
 /// 2^-24; return its sign where that is certain, and ask `exact` where it is not. Where the
-/// determinant is larger than 16 *u* (|*left*| + |*right*|) nothing must be asked. No number is
-/// near the ends of the float range.
+/// determinant is larger than `16 u24 (|left| + |right|)` nothing must be asked. No number is near
+/// the ends of the float range.
 #pragma once
 
 #include "common/geometry.hpp"

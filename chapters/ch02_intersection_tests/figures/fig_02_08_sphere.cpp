@@ -80,14 +80,14 @@ Svg fig_02_08(const Options&) {
     svg.text(moved(flat(nearest), 6, -12), "*N*", {.size = 20, .halo = true});
     svg.text(moved(flat(enter), -14, -10), "*t*_0", {.size = 20, .halo = true});
     svg.text(moved(flat(leave), 16, -12), "*t*_1", {.size = 20, .halo = true});
-    svg.text(moved(0.5f * flat(ray.origin + sphere.centre), -20, 28), "*f*",
+    svg.text(moved(0.5f * flat(ray.origin + sphere.centre), -20, 28), "*g*",
              {.ink = Ink::blue, .size = 20});
-    svg.text(moved(0.5f * flat(sphere.centre + nearest), 14, 8), "*n*",
-             {.ink = Ink::green, .size = 20});
+    svg.text(moved(0.5f * flat(sphere.centre + nearest), 8, 8), "*N* − *C*",
+             {.anchor = Anchor::start, .ink = Ink::green, .size = 20});
     svg.text(moved(0.5f * flat(sphere.centre + enter), -10, 20), "*r*",
              {.ink = Ink::ink, .size = 20});
     svg.text({130, 246}, "half a chord, squared:", {});
-    svg.text({130, 276}, "*r*² − |*n*|²", {.size = 20});
+    svg.text({130, 276}, "*r*² − |*N* − *C*|²", {.size = 20});
 
     constexpr int side = 96;
     constexpr float size = 192;

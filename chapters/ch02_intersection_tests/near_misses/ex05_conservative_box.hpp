@@ -1,6 +1,6 @@
 /// @file
-/// Exercise 2.5, a near miss: 1 + 4 u, the factor of many public programs, is too little for three
-/// roundings at either end; but one ray in very many shows it.
+/// Exercise 2.5, a near miss: 1 + 4 u24, the factor of many public programs, is too little for
+/// three roundings at either end; but one ray in very many shows it.
 #pragma once
 
 #include "common/geometry.hpp"

@@ -9,9 +9,9 @@
 
 namespace space {
 
-/// Difference, reciprocal and product are rounded, each by a factor of 1 +- u, u = 2^-24; so is the
-/// product with this factor. near is at most (1 + u)^3 times the exact one, far at least (1 - u)^4
-/// (1 + 8 u) > (1 + u)^3 times.
+/// Difference, reciprocal and product are rounded, each by a factor of 1 +- u24, u24 = 2^-24; so is
+/// the product with this factor. near is at most (1 + u24)^3 times the exact one, far at least (1 -
+/// u24)^4 (1 + 8 u24) > (1 + u24)^3 times.
 inline constexpr float lengthen = 1.0f + 8.0f * 0x1p-24f;
 
 inline bool may_hit_box(const Ray& ray, const Aabb& box) {

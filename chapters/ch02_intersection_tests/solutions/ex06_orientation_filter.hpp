@@ -6,11 +6,11 @@
 
 namespace space {
 
-/// Each product has three factors of 1 +- u behind it, two differences' and its own: it is off by
-/// at most 3 u (1 + 2 u) times itself. The last difference is rounded and keeps its sign, unless it
-/// is 0. So 3 u (|left| + |right|) and a few u of it, for this sum's, this product's and the last
-/// difference's roundings, bound the error: 4 u is on the safe side (Shewchuk 1997 has
-/// 3 u + 16 u^2).
+/// Each product has three factors of 1 +- u24 behind it, two differences' and its own: it is off by
+/// at most 3 u24 (1 + 2 u24) times itself. The last difference is rounded and keeps its sign,
+/// unless it is 0. So 3 u24 (|left| + |right|) and a few u24 of it, for this sum's, this product's
+/// and the last difference's roundings, bound the error: 4 u24 is on the safe side (Shewchuk 1997
+/// has 3 u24 + 16 u24^2).
 template <class Exact>
 int orientation(const Point2& a, const Point2& b, const Point2& c, const Exact& exact) {
     const float left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
