@@ -139,7 +139,8 @@ struct PlaneCounter {
 
 Panel quadtree(const std::vector<Segment>& segments) {
     Panel panel{.name = "quadtree"};
-    const OrthtreeNodes<2> tree = OrthtreeBuilder<2>::build(segments);
+    const OrthtreeNodes<2> tree =
+        OrthtreeBuilder<2>::build(segments, {.costs = {}, .max_growth = 16});
     tree.for_each_cell([&](std::uint32_t index, const OrthtreeCell<2>& cell) {
         if (is_at_pot(tree.frame.box(cell)))
             panel.to_pot = std::min<std::size_t>(panel.to_pot, 2 * cell.depth);

@@ -101,7 +101,8 @@ void draw_panel(Svg& svg, double left, const char* name, const std::vector<Segme
 Svg fig_06_04(const Options&) {
     using Straddlers = OctreeConfig::Straddlers;
     const std::vector<Segment> segments = short_segments();
-    OctreeConfig config{.costs = {.traversal = 0.0}, .max_leaf_size = 1, .max_depth = 4};
+    OctreeConfig config{
+        .costs = {.traversal = 0.0}, .max_leaf_size = 1, .max_depth = 4, .max_growth = 16};
     Svg svg(
         "Short segments in a quadtree that names them in all cells, in one that keeps them "
         "where they fit, and in a loose one",

@@ -37,7 +37,8 @@ struct Story {
     };
     std::vector<Segment> segments = moved_segments();
     OrthtreeNodes<2> tree = OrthtreeBuilder<2>::build(
-        segments, {.costs = {.traversal = 0.0}, .max_leaf_size = 1, .max_depth = 2});
+        segments,
+        {.costs = {.traversal = 0.0}, .max_leaf_size = 1, .max_depth = 2, .max_growth = 16});
     std::vector<OrthtreeCell<2>> cells = cells_of(tree);
     std::vector<Visit> visits = {};
 
@@ -143,14 +144,12 @@ class Script {
         const auto& [node, cube, part] = visit.at;
         const double at_x = prepared_.distance(0, cube.centre.x),
                      at_y = prepared_.distance(1, cube.centre.y);
-        const HalfSpans<2> spans = tight_halves(prepared_, cube);
+        const ChildParts<2> of_children = tight_parts(prepared_, cube, part);
         std::vector<std::string> parts;
         std::vector<WalkStep::Visit> met;
         for (std::uint32_t k = 0; k < orthants<2>; ++k) {
             const std::uint32_t child = k ^ prepared_.flip;
-            RayPart its = part;
-            for (std::size_t axis = 0; axis < 2; ++axis)
-                its = within(its, spans[axis][k >> axis & 1u]);
+            const RayPart its{of_children.enter[k], of_children.leave[k]};
             parts.push_back(described(node, child, its));
             if (story_.tree.nodes[node].has(child) && its.enter <= its.leave)
                 met.push_back({story_.tree.nodes[node].child(child), its.enter, its.leave});
