@@ -26,12 +26,13 @@ namespace space {
 ///
 /// Planes are doubles, exactly where the tree has them, so that chapter 4's count holds: three
 /// roundings make a plane's t, which is off by at most gamma(3) |T| from the exact T, and of the
-/// right sign. With u = 2^-53, t (1 +- 8 u) lies beyond T after its own rounding. So let a point of
-/// the ray lie in a child's closed cell, at T. Each plane that the ray must have passed to be there
-/// has been passed at T or before, in exact arithmetic, and `begin` is not larger; each plane that
-/// it has not passed lies at T or beyond, and `end` is not smaller. Both hold for the part that the
-/// node was given, by induction, and so for what the child is given: it holds T, the child is
-/// visited. No two planes are compared with each other: which of them comes first decides nothing.
+/// right sign. With u53 = 2^-53, t (1 +- 8 u53) lies beyond T after its own rounding. So let a
+/// point of the ray lie in a child's closed cell, at T. Each plane that the ray must have passed to
+/// be there has been passed at T or before, in exact arithmetic, and `begin` is not larger; each
+/// plane that it has not passed lies at T or beyond, and `end` is not smaller. Both hold for the
+/// part that the node was given, by induction, and so for what the child is given: it holds T, the
+/// child is visited. No two planes are compared with each other: which of them comes first decides
+/// nothing.
 struct PlaneSpan {
     double begin = -infinity, end = infinity;
 

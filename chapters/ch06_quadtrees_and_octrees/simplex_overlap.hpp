@@ -66,9 +66,9 @@ class SimplexOverlap {
     /// On which side of the line from a to b the point lies, seen in the plane of axes j and k:
     /// 1 to the left, 0 on it, -1 to the right.
     ///
-    /// With u = 2^-53: each product carries three roundings, of two differences and its own, and
+    /// With u53 = 2^-53: each product carries three roundings, of two differences and its own, and
     /// their difference a fourth. Off by at most gamma(4) times the sum of the products' sizes; the
-    /// fifth u is more than the bound's own roundings and the terms with u^2 take.
+    /// fifth u53 is more than the bound's own roundings and the terms with u53^2 take.
     static int side_of_line(const Point<D>& a, const Point<D>& b, const Double<D>& p, int j,
                             int k) {
         const double left = (double{b[j]} - a[j]) * (p[k] - a[k]);
