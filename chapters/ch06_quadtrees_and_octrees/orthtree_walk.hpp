@@ -129,7 +129,8 @@ class PlainWalk {
 /// here they are computed from planes, whose coordinates are exact, so that errors don't add up.)
 ///
 /// Here are the parts of all children, by their numbers in the order of the ray: bit `axis` is set
-/// for the far half.
+/// for the far half. (Loops this short stay loops at -O2 unless they are told not to, and cost more
+/// than what is in them.)
 template <int D>
 struct ChildParts {
     std::array<double, orthants<D>> enter, leave;
@@ -188,6 +189,7 @@ ChildParts<D> loose_parts(const OrthtreeRay<D>& ray, const OrthtreeCube<D>& cube
     const OrthtreeBox<D> below = cube.child(0).box(looseness),
                          above = cube.child(orthants<D> - 1).box(looseness);
     ChildParts<D> parts(part);
+#pragma GCC unroll 8
     for (int axis = 0; axis < D; ++axis) {
         const bool upwards = ray.far[std::size_t(axis)] == 1;
         const auto span_of = [&](const OrthtreeBox<D>& half) {
