@@ -124,6 +124,9 @@ TEST_CASE("the frame is no larger than it must be") {
     CHECK(OrthtreeFrame<2>::around({Point2(-3.0f), Point2(2.0f)}).edge == 8.0);
     CHECK(OrthtreeFrame<3>::around({Point3(1e6f, 0, 0), Point3(1e6f, 1e-10f, 0)}).edge == 0x1p-10);
     CHECK(OrthtreeFrame<3>::around({}).edge == 1.0);
+    // It would fit into an edge of 1, but for where corners may be.
+    const Aabb beside{Point3(-0x1p-30f), Point3(1.0f - 0x1p-24f)};
+    CHECK(OrthtreeFrame<3>::around(beside).edge == 2.0);
 }
 
 TEST_CASE("a point outside of the root is in the cell next to it") {
