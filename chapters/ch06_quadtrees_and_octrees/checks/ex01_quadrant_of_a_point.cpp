@@ -138,7 +138,7 @@ TEST_CASE("a cell at the root's border on one axis is half-open on the other") {
 TEST_CASE("one float beyond the root's borders is nothing") {
     const float beyond = std::nextafter(1.0f, infinity);
     for (const float p : {beyond, -beyond}) {
-        CAPTURE(Number(p));
+        CAPTURE(Number{p});
         REQUIRE(answer(root, root, p, 0.5f) == "not in the cell");
         REQUIRE(answer(root, root, 0.5f, p) == "not in the cell");
     }
@@ -146,7 +146,7 @@ TEST_CASE("one float beyond the root's borders is nothing") {
 
 TEST_CASE("a point below a border is below it, however near") {
     for (const float p : {-1e-6f, -1e-12f, -1e-30f, -denormal}) {
-        CAPTURE(Number(p));
+        CAPTURE(Number{p});
         REQUIRE(answer(root, root, p, 0.5f) == "quadrant 2");
         REQUIRE(answer(root, root, 0.5f, p) == "quadrant 1");
         REQUIRE(answer(root, children[1], 0.25f, p) == "quadrant 2");
@@ -156,7 +156,7 @@ TEST_CASE("a point below a border is below it, however near") {
 
 TEST_CASE("what is not a number or infinite is in no cell") {
     for (const float p : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
-        CAPTURE(Number(p));
+        CAPTURE(Number{p});
         REQUIRE(answer(root, root, p, 0.5f) == "not in the cell");
         REQUIRE(answer(root, root, 0.5f, p) == "not in the cell");
     }

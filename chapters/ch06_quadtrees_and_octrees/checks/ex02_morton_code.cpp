@@ -126,7 +126,7 @@ TEST_CASE("a point between two cells is in the upper one, the float before it in
         for (int i = 0; i < 40; ++i) {
             const std::uint32_t place = 1 + random.below((1u << depth) - 1);
             const float plane = std::ldexp(float(place), -depth);
-            CAPTURE(depth, place, Number(plane));
+            CAPTURE(depth, place, Number{plane});
             REQUIRE(way_to({plane, 0, 0}) == children_of(by_halving({plane, 0, 0})));
             const float before = std::nextafter(plane, 0.0f);
             REQUIRE(way_to({0, before, 0}) == children_of(by_halving({0, before, 0})));

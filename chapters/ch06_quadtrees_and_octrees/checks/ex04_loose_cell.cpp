@@ -114,7 +114,7 @@ TEST_CASE("a size of just a cell's edge goes as deep as the cell, the next float
     for (std::uint32_t depth = 1; depth <= 21; ++depth)
         for (int axis = 0; axis < 3; ++axis) {
             const float edge = std::ldexp(1.0f, -int(depth));
-            CAPTURE(axis, Number(edge));
+            CAPTURE(axis, Number{edge});
             REQUIRE(stored(along(axis, 0.0f, edge)) == words(depth, {}));
             REQUIRE(stored(along(axis, 0.0f, std::nextafter(edge, 1.0f))) == words(depth - 1, {}));
         }
@@ -187,7 +187,7 @@ TEST_CASE(
         const Cell cell = loose_cell_of(triangle, edge), wanted = exactly(box);
         REQUIRE(reaches_all_of(wanted, box));
         if (cell == wanted) continue;
-        CAPTURE(triangle, Number(edge), reaches_all_of(cell, box));
+        CAPTURE(triangle, Number{edge}, reaches_all_of(cell, box));
         REQUIRE(words(cell) == words(wanted));
     }
 }
