@@ -106,6 +106,8 @@ void check_losses(const TestScene& scene, const OctreeConfig& config) {
     const LossFinderOfOrthtree<D> finder(tree, polygons);
     INFO(scene.name << ", D = " << D);
     CHECK(finder.losses() == std::vector<std::string>{});
+    if (config.straddlers == Straddlers::duplicate)
+        for (const OrthtreeNode& node : tree.nodes) REQUIRE((node.is_leaf() || node.count == 0));
 }
 
 /// In a tree that keeps them: each polygon once, in a cell that reaches around it.
