@@ -297,7 +297,7 @@ TEST_CASE("memory that ends at any moment leaves the node as it was, and its sha
                                   {.max_references = builder.references(), .at_once = at_once});
         int failures = 0;
         bool is_refused = false;
-        for (bool is_done = false; !is_done; ++failures) {
+        for (bool is_done = false; !is_done; failures += sized(1, 7)) {
             test::allocations_left = failures;
             try {
                 lazy.build_all();
