@@ -1,32 +1,108 @@
 /// Chapter 6: quadtrees and octrees, whose cells are cut in the middle of every axis at once.
 ///     ch06_quadtrees_and_octrees --out pictures
-///     ch06_quadtrees_and_octrees --figure fig_06_10 --out figures
+///     ch06_quadtrees_and_octrees --figure fig_06_06 --out figures
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch06_quadtrees_and_octrees/linear_octree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/measured/adaptive.hpp"
+#include "chapters/ch06_quadtrees_and_octrees/measured/measurements.hpp"
+#include "chapters/ch06_quadtrees_and_octrees/measured/outcome.hpp"
+#include "chapters/ch06_quadtrees_and_octrees/octree.hpp"
 #include "common/measure.hpp"
 #include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
+#include "common/program/progress.hpp"
+#include "common/program/report.hpp"
 
 #include <fmt/format.h>
 
 namespace space::ch06 {
 namespace {
 
+constexpr const char* default_scene = "room:3";
+
+Options read_options(int argc, char** argv) {
+    Options options =
+        parse_options(argc, argv,
+                      {.name = this_chapter.name,
+                       .about = "Chapter 6: quadtrees and octrees",
+                       .defaults = {.scene = default_scene, .width = 240, .height = 180}});
+    if (options.small && options.scene == default_scene) options.scene = "stadium";
+    if (options.small) options.width = 32, options.height = 24;
+    if (options.quick && !options.counts) options.width /= 2, options.height /= 2;
+    return options;
+}
+
+/// One scene by ever other cells: the same picture. @return pixels that are not the same
+std::uint64_t draw_pictures(const Options& options) {
+    const Scene scene = asked_scene(options);
+    const std::vector<Triangle> triangles = scene.mesh.triangles();
+    const RenderSettings settings{
+        .width = options.width, .height = options.height, .threads = options.threads};
+    Table table({"rays and shadow rays", "bytes per triangle", "nodes per ray", "tests per ray",
+                 "other pixels"});
+    Image naive(options.width, options.height);
+    std::uint64_t others = 0;
+    const auto draw = [&](const std::string& method, const auto& tree, bool is_first = false) {
+        Progress progress(method, static_cast<std::size_t>(settings.height));
+        const Rendering drawn = render(scene, tree, settings, &progress);
+        if (is_first) naive = drawn.image;
+        std::uint64_t other = 0;
+        for (int y = 0; y < options.height; ++y)
+            for (int x = 0; x < options.width; ++x) other += drawn.image.at(x, y) != naive.at(x, y);
+        others += other;
+        const auto rays = double(drawn.counts.camera_rays + drawn.counts.shadow_rays);
+        const TraversalCounts& counts = drawn.counts.traversal;
+        table.row(
+            {method, fmt::format("{:.0f}", double(tree.shape().bytes) / double(triangles.size())),
+             fmt::format("{:.1f}", double(counts.nodes_visited) / rays),
+             fmt::format("{:.1f}", double(counts.triangles_tested) / rays), with_commas(other)});
+        return drawn.image;
+    };
+
+    using Straddlers = OctreeConfig::Straddlers;
+    draw("no tree", Naive<FilteredExact>::build(triangles), true);
+    write_png(options.out / "ch06_octree.png", draw("octree", Octree<>::build(triangles)));
+    draw("straddlers kept", Octree<>::build(triangles, {.straddlers = Straddlers::keep}));
+    draw("kept in loose cells",
+         Octree<>::build(triangles, {.straddlers = Straddlers::keep, .looseness = 2.0}));
+    draw("linear, with boxes", LinearOctree<>::build(triangles));
+    draw("SAH k-d tree", KdTree<>::build(triangles));
+
+    print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
+                              with_commas(triangles.size()), options.width, options.height));
+    table.print();
+    return others;
+}
+
 int run(int argc, char** argv) {
-    const Options options = parse_options(
-        argc, argv,
-        {.name = this_chapter.name, .about = "Chapter 6: quadtrees and octrees", .defaults = {}});
+    const Options options = read_options(argc, argv);
     if (options.figure) return write_figures(this_chapter.figures, options);
     check_results_writable(options);
     const bool times = !options.small && !options.counts;
-    const std::vector<AdaptivePoint>& adaptive = measured_once<measure_adaptive>(options);
-    print_adaptive(adaptive, times);
-    const std::uint64_t wrong = wrong_answers(adaptive);
-    Numbers numbers;
-    quote_adaptive(adaptive, times, numbers);
-    numbers.write(options.out, provenance(std::string(this_chapter.name), options));
+    const bool all = !options.counts || !options.quick;
+
+    std::uint64_t wrong = draw_pictures(options);
+    Measurements measured;
+    print_codes(measured.codes = measure_codes(options));
+    print_segments(measured.segments = measure_segments(options));
+    print_overlaps(measured.overlaps = measure_overlaps(options));
+    print_planes(measured.planes = measure_planes(options));
+    if (all) {
+        print_points(measured.points = measured_once<measure_points>(options), times);
+        print_searches(measured.searches = measure_searches(options), times);
+        print_trees(measured.trees = measured_once<measure_trees>(options), times);
+        print_growth(measured.growth = measured_once<measure_growth>(options), times);
+        print_depths(measured.depths = measured_once<measure_depths>(options), times);
+        print_adaptive(measured.adaptive = measured_once<measure_adaptive>(options), times);
+    }
+    if (times) print_sorts(measured.sorts = measure_sorts(options));
+    wrong += wrong_answers(measured);
+    quoted(measured, times).write(options.out, provenance(std::string(this_chapter.name), options));
     if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);
-    return finish(options, {}, wrong);
+    return finish(options, answer_claims(measured), wrong);
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ struct OctreeConfig {
     /// it is no longer than a cell: Ulrich 2000, "Loose Octrees".)
     double looseness = 1.0;
     /// A cell is cut where that lowers the expected cost of a ray, as in chapter 4; at a traversal
-    /// cost of 0, wherever it spares tests.
-    SahCosts costs = {};
+    /// cost of 0, wherever it spares tests. A ray finds its way among eight children in about twice
+    /// the time that it takes at a plane between two.
+    SahCosts costs = {.traversal = 2.0};
     std::size_t max_leaf_size = 2;  ///< a cell with so few is not cut
     std::uint32_t max_depth = max_orthtree_depth<3>;
     /// On no way from the root to a leaf do cuts multiply references by more than this. So there

@@ -7,6 +7,7 @@
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_cell.hpp"
 #include "common/geometry.hpp"
+#include "common/observer.hpp"
 
 #include <array>
 #include <cmath>
@@ -33,24 +34,32 @@ class SimplexOverlap {
             for (int axis = 0; axis < 3; ++axis) {
                 const auto [j, k] = others(axis);
                 normal_[std::size_t(axis)] =
-                    side_of_line(simplex.a, simplex.b, Double3(simplex.c), j, k);
+                    side_of_line(simplex.a, simplex.b, Double3(simplex.c), j, k, NoObserver());
             }
     }
 
+    /// Event: it was asked on which side of a line or plane a corner of a box lies.
+    struct Side {
+        bool by_filter;  ///< or by exact arithmetic
+    };
+
     // [overlaps]
-    bool overlaps(const OrthtreeBox<D>& box) const {
+    template <class Observer = NoObserver>
+    bool overlaps(const OrthtreeBox<D>& box, Observer&& observer = {}) const {
         for (int axis = 0; axis < D; ++axis)
             if (double{bounds_.min[axis]} > box.max[axis] ||
                 double{bounds_.max[axis]} < box.min[axis])
                 return false;
-        if constexpr (D == 2) return !line_separates(simplex_.a, simplex_.b, box, 0, 1, 0);
+        if constexpr (D == 2)
+            return !line_separates(simplex_.a, simplex_.b, box, 0, 1, 0, observer);
         if constexpr (D == 3) {
-            if (plane_separates(box, 1) || plane_separates(box, -1)) return false;
+            if (plane_separates(box, 1, observer) || plane_separates(box, -1, observer))
+                return false;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto [j, k] = others(axis);
                 for (int edge = 0; edge < 3; ++edge)
                     if (line_separates(simplex_[edge], simplex_[(edge + 1) % 3], box, j, k,
-                                       normal_[std::size_t(axis)]))
+                                       normal_[std::size_t(axis)], observer))
                         return false;
             }
         }
@@ -69,13 +78,16 @@ class SimplexOverlap {
     /// With u53 = 2^-53: each product carries three roundings, of two differences and its own, and
     /// their difference a fourth. Off by at most gamma(4) times the sum of the products' sizes; the
     /// fifth u53 is more than the bound's own roundings and the terms with u53^2 take.
-    static int side_of_line(const Point<D>& a, const Point<D>& b, const Double<D>& p, int j,
-                            int k) {
+    template <class Observer>
+    static int side_of_line(const Point<D>& a, const Point<D>& b, const Double<D>& p, int j, int k,
+                            Observer&& observer) {
         const double left = (double{b[j]} - a[j]) * (p[k] - a[k]);
         const double right = (double{b[k]} - a[k]) * (p[j] - a[j]);
         const double side = left - right;
         const double bound = 5.0 * 0x1p-53 * (std::abs(left) + std::abs(right));
-        if (std::abs(side) > bound) return side > 0.0 ? 1 : -1;
+        const bool by_filter = std::abs(side) > bound;
+        observer.observe(Side{by_filter});
+        if (by_filter) return side > 0.0 ? 1 : -1;
         return (minus(b[j], a[j]) * minus(p[k], a[k]) - minus(b[k], a[k]) * minus(p[j], a[j]))
             .sign();
     }
@@ -85,7 +97,8 @@ class SimplexOverlap {
     ///
     /// Each of the six terms carries eight roundings: three differences, two products, and three
     /// sums. The ninth u pays as above.
-    int side_of_plane(const Double3& p) const {
+    template <class Observer>
+    int side_of_plane(const Double3& p, Observer&& observer) const {
         const Double3 a(simplex_.a), e1 = Double3(simplex_.b) - a, e2 = Double3(simplex_.c) - a,
                                      q = p - a;
         const Double3 s1 = glm::abs(e1), s2 = glm::abs(e2), sq = glm::abs(q);
@@ -94,7 +107,9 @@ class SimplexOverlap {
             9.0 * 0x1p-53 *
             ((s1.y * s2.z + s1.z * s2.y) * sq.x + (s1.z * s2.x + s1.x * s2.z) * sq.y +
              (s1.x * s2.y + s1.y * s2.x) * sq.z);
-        if (std::abs(side) > bound) return side > 0.0 ? 1 : -1;
+        const bool by_filter = std::abs(side) > bound;
+        observer.observe(Side{by_filter});
+        if (by_filter) return side > 0.0 ? 1 : -1;
         using Exact = Exact3<Expansion<2>>;
         const auto from_a = [&](const Double3& to) {
             return Exact{minus(to.x, simplex_.a.x), minus(to.y, simplex_.a.y),
@@ -116,21 +131,24 @@ class SimplexOverlap {
     /// Whether all of the box lies strictly on the outer side of the edge, the inner one being
     /// given by its sign; by 0 where both sides are outer ones. The box's corner that reaches
     /// farthest inwards decides.
+    template <class Observer>
     static bool line_separates(const Point<D>& a, const Point<D>& b, const OrthtreeBox<D>& box,
-                               int j, int k, int inner) {
+                               int j, int k, int inner, Observer&& observer) {
         if (inner == 0)
-            return line_separates(a, b, box, j, k, 1) || line_separates(a, b, box, j, k, -1);
+            return line_separates(a, b, box, j, k, 1, observer) ||
+                   line_separates(a, b, box, j, k, -1, observer);
         Double<D> corner = box.min;
         corner[k] = ((b[j] > a[j]) == (inner > 0) ? box.max : box.min)[k];
         corner[j] = ((b[k] > a[k]) == (inner > 0) ? box.min : box.max)[j];
-        return side_of_line(a, b, corner, j, k) == -inner;
+        return side_of_line(a, b, corner, j, k, observer) == -inner;
     }
     /// Whether all of the box lies strictly behind the plane (front = 1), or in front (front = -1).
-    bool plane_separates(const OrthtreeBox<D>& box, int front) const {
+    template <class Observer>
+    bool plane_separates(const OrthtreeBox<D>& box, int front, Observer&& observer) const {
         Double3 corner;
         for (int axis = 0; axis < 3; ++axis)
             corner[axis] = (normal_[std::size_t(axis)] == front ? box.max : box.min)[axis];
-        return side_of_plane(corner) == -front;
+        return side_of_plane(corner, observer) == -front;
     }
 
     Simplex<D> simplex_;
