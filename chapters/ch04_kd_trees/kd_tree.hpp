@@ -28,18 +28,13 @@ namespace space {
 /// What the walk needs of a ray, once for all nodes.
 template <int D>
 struct KdRay {
-    // Arrays: glm finds a component of a vector by comparing the axis with 1 and 2, two branches
-    // more in every step.
-    std::array<double, D> origin, inverse;  ///< 1 / direction; +-infinity for +-0
-    std::array<std::uint32_t, D> far;       ///< by axis, which half the ray comes to last
+    Double<D> origin, inverse;         ///< 1 / direction; +-infinity for +-0
+    std::array<std::uint32_t, D> far;  ///< by axis, which half the ray comes to last
 
-    explicit KdRay(const BasicRay<D>& ray) {
-        for (int axis = 0; axis < D; ++axis) {
-            const auto i = static_cast<std::size_t>(axis);
-            origin[i] = ray.origin[axis];
-            inverse[i] = 1.0 / double{ray.direction[axis]};
-            far[i] = std::signbit(ray.direction[axis]) ? 0 : 1;
-        }
+    explicit KdRay(const BasicRay<D>& ray)
+        : origin(ray.origin), inverse(1.0 / Double<D>(ray.direction)) {
+        for (int axis = 0; axis < D; ++axis)
+            far[static_cast<std::size_t>(axis)] = std::signbit(ray.direction[axis]) ? 0 : 1;
     }
 
     /// The ray's t on a plane across an axis. Three roundings, of the difference, of the reciprocal
@@ -47,8 +42,7 @@ struct KdRay {
     /// most gamma(3) |t|, and of the right sign. Along the plane it is +-infinity, as if the plane
     /// stood before or behind all of the ray; within the plane it is not a number.
     double distance(int axis, double position) const {
-        const auto i = static_cast<std::size_t>(axis);
-        return (position - origin[i]) * inverse[i];
+        return (position - origin[axis]) * inverse[axis];
     }
 };
 
