@@ -181,7 +181,8 @@ std::vector<SegmentTree> measure_segments(const Options& options) {
     for (const std::size_t n : {10u, 100u, 1'000u})
         for (std::uint32_t depth = 2; depth <= (options.small ? 6u : 10u); depth += 2) {
             const std::vector<Segment> segments = long_segments(n, options.seed);
-            const OctreeConfig config{.costs = {.traversal = 0.0},
+            // A cut that costs less than nothing always pays.
+            const OctreeConfig config{.costs = {.traversal = -1e9},
                                       .max_leaf_size = 1,
                                       .max_depth = depth,
                                       .max_growth = 1e9};
