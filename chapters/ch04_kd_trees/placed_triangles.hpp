@@ -11,6 +11,7 @@
 
 namespace space {
 
+// [place]
 /// Copies of triangles in the order in which a tree's references first name them: what a ray meets
 /// one after the other lies together in memory.
 struct PlacedTriangles {
@@ -35,5 +36,6 @@ struct PlacedTriangles {
         return triangles.size() * sizeof(Triangle) + places.size() * sizeof(std::uint32_t);
     }
 };
+// [place]
 
 }  // namespace space
