@@ -35,6 +35,7 @@ struct PictureSample {
     bool operator==(const PictureSample&) const = default;
 };
 
+/// A pixel of the picture, by its column and row.
 struct Pixel {
     int x, y;
 

@@ -130,7 +130,7 @@ def look_at_logs(name):
         message = json.loads(entry["message"])["message"]
         if message["method"] == "Network.requestWillBeSent":
             url = message["params"]["request"]["url"]
-            if urllib.parse.urlsplit(url).scheme not in ("file", "data", "blob", "about", "chrome"):
+            if urllib.parse.urlsplit(url).scheme not in ("file", "data", "blob", "about", "chrome", "chrome-untrusted"):
                 fault(name, f"asks the network for {url}")
 
 

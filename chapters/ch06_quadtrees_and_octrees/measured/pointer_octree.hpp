@@ -13,6 +13,7 @@
 
 namespace space::ch06 {
 
+/// The octree with a pointer to each child, as a structure that rays can be shot at.
 class PointerOctree {
   public:
     explicit PointerOctree(std::span<const Triangle> triangles) {
