@@ -313,8 +313,8 @@ TEST_CASE("an interpolated colour is never beyond its ends, however different th
     Pcg32 random(7);
     const auto wild = [&] {
         const double sign = random.below(2) ? 1.0 : -1.0;
-        return sign *
-               double(float(std::ldexp(1.0 + random.uniform(), int(random.below(200)) - 100)));
+        const int exponent = int(random.below(200)) - 100;
+        return sign * double(float(std::ldexp(1.0 + random.uniform(), exponent)));
     };
     for (int round = 0; round < sized(200'000, 20'000); ++round) {
         const double a = wild(), b = random.below(4) == 0 ? a : wild();
