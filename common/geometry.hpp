@@ -148,4 +148,17 @@ struct Segment {
 template <int D>
 using Simplex = std::conditional_t<D == 2, Segment, Triangle>;
 
+/// Its box; empty where a coordinate is no number, or infinite: no ray can hit such a polygon.
+/// (Were it kept, a box would forget or swallow all others: every comparison with what is not a
+/// number is false, and areas would be infinite.)
+template <int D>
+BasicAabb<D> box_if_finite(const Simplex<D>& polygon) {
+    BasicAabb<D> box;
+    for (int corner = 0; corner < D; ++corner) {
+        if (!is_finite<D>(polygon[corner])) return {};
+        box.extend(polygon[corner]);
+    }
+    return box;
+}
+
 }  // namespace space

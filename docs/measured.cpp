@@ -57,6 +57,14 @@ const Measured::Chapter& Measured::chapter(const std::string& name) {
     return chapter;
 }
 
+/// Whether nothing but empty lines and the text's ends stand beside these places.
+static bool is_paragraph(const std::string& text, std::string::const_iterator begin,
+                         std::string::const_iterator end) {
+    const std::string_view before(text.begin(), begin), after(end, text.end());
+    return (before.empty() || before.ends_with("\n\n")) &&
+           (after.empty() || after.starts_with("\n"));
+}
+
 std::string Measured::resolved(const std::string& text, const std::string& name) {
     static const std::regex command(R"([\\@](num|table|measured)\{([^}]*)\})"),
         quoted(R"((ch\d\d)\.(\w+))"), whole(R"(ch\d\d)");
@@ -86,6 +94,8 @@ std::string Measured::resolved(const std::string& text, const std::string& name)
             result += told(run, source_fingerprints(root_, run.chapter));
             continue;
         }
+        if (kind == "table" && !is_paragraph(text, (*at)[0].first, (*at)[0].second))
+            throw refuse("a table is a paragraph of its own, or its bars and dashes are shown");
         const auto values = kind == "num" ? &MeasuredRun::numbers : &MeasuredRun::tables;
         const std::map<std::string, std::string>* found = nullptr;
         for (const MeasuredRun* run : {&chapter.committed, &chapter.own})

@@ -297,7 +297,8 @@ std::string badge(const std::string& verdict) {
                        verdict == "no answer yet" ? "open" : verdict, sign, verdict);
 }
 
-std::string claim_card(const Claim& claim, const Answer* answer) {
+/// As `chapter` answers it. The first of a claim's chapters has its anchor.
+std::string claim_card(const Claim& claim, int chapter, const Answer* answer) {
     const std::string note = claim.note.empty() ? "" : ", " + xml_escaped(claim.note);
     std::string card = fmt::format(
         "<div class=\"claim {}\">\n<p class=\"head\"><b>{}</b> <span>{}{}</span> {}</p>\n<p "
@@ -310,7 +311,9 @@ std::string claim_card(const Claim& claim, const Answer* answer) {
             "dl>\n",
             typeset(xml_escaped(answer->measured)), typeset(xml_escaped(answer->scene)),
             typeset(xml_escaped(answer->rule)));
-    return fmt::format("\\anchor claim_{}\n{}", claim.id, raw(card + "</div>\n"));
+    const std::string anchor =
+        claim.chapters.front() == chapter ? claim.id : fmt::format("{}_{}", claim.id, chapter);
+    return fmt::format("\\anchor claim_{}\n{}", anchor, raw(card + "</div>\n"));
 }
 
 constexpr const char* ledger_head =
@@ -360,7 +363,7 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
             const auto answer = std::ranges::find(answers.answers, claim->id, &Answer::claim);
             const bool answered = answer != answers.answers.end();
             if (answered) verdicts[claim->id] = answer->verdict;
-            sections += claim_card(*claim, answered ? &*answer : nullptr);
+            sections += claim_card(*claim, chapter.number, answered ? &*answer : nullptr);
         }
     }
     std::string text = ledger_head;

@@ -3,7 +3,7 @@
 ///     ch03_bsp_trees --out pictures
 ///     ch03_bsp_trees --figure fig_03_02 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "chapters/ch01_naive_ray_tracing/same_picture.hpp"
 #include "chapters/ch03_bsp_trees/measured/known_errors.hpp"
 #include "chapters/ch03_bsp_trees/measured/measurements.hpp"
 #include "chapters/ch03_bsp_trees/measured/outcome.hpp"
@@ -58,55 +58,40 @@ ChapterOptions read_options(int argc, char** argv) {
 
 /// The scene by rays through its tree and by the painter.
 Pictures draw_pictures(const ChapterOptions& options) {
-    const Scene scene = asked_scene(options);
-    const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const RenderSettings settings{
-        .width = options.width, .height = options.height, .threads = options.threads};
+    SamePicture same(options);
+    const std::span<const Triangle> triangles = same.triangles();
     const Bsp<> bsp = Bsp<>::build(triangles, options.tree);
+    const ComparedPicture by_all = same.draw("naively", Naive<FilteredExact>::build(triangles));
+    const ComparedPicture by_tree = same.draw("the same, through the tree", bsp);
 
-    Progress tracing("rays through the tree", static_cast<std::size_t>(settings.height));
-    const Rendering by_tree = render(scene, bsp, settings, &tracing);
-    Progress naively("the same, naively", static_cast<std::size_t>(settings.height));
-    const Rendering by_all =
-        render(scene, Naive<FilteredExact>::build(triangles), settings, &naively);
-
-    const PixelGrid grid(scene.camera, options.width, options.height);
+    const PixelGrid grid(same.scene().camera, options.width, options.height);
     const DepthBuffer painted = paint(bsp.tree(), options.tree.grade, grid);
     const DepthBuffer nearest = z_buffer(triangles, grid);
 
-    std::uint64_t other_pixels = 0;
-    for (int y = 0; y < options.height; ++y)
-        for (int x = 0; x < options.width; ++x)
-            other_pixels += by_tree.image.at(x, y) != by_all.image.at(x, y);
     const PixelDifferences painter = pixel_differences(painted, nearest);
 
-    print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
-                              with_commas(triangles.size()), options.width, options.height));
+    same.print_heading(options);
     Table table({"rays and shadow rays", "tree", "naive"});
-    const std::uint64_t rays = by_tree.counts.camera_rays + by_tree.counts.shadow_rays;
-    const auto row = [&](const char* what, std::uint64_t of_tree, std::uint64_t of_all) {
-        table.row({what, fmt::format("{:.1f}", double(of_tree) / double(rays)),
-                   fmt::format("{:.1f}", double(of_all) / double(rays))});
-    };
-    const TraversalCounts &of_tree = by_tree.counts.traversal, &of_all = by_all.counts.traversal;
-    row("nodes per ray", of_tree.nodes_visited, of_all.nodes_visited);
-    row("ray-triangle tests per ray", of_tree.triangles_tested, of_all.triangles_tested);
+    table.row(
+        {"nodes per ray", fixed(by_tree.nodes_per_ray(), 1), fixed(by_all.nodes_per_ray(), 1)});
+    table.row({"ray-triangle tests per ray", fixed(by_tree.tests_per_ray(), 1),
+               fixed(by_all.tests_per_ray(), 1)});
     table.print();
     fmt::print(
         "\nThe pictures differ in {} of {} pixels. The painter, who knows no depths, shows another "
         "triangle\n"
         "than the z-buffer in {}; in {} more, two triangles lie at the same depth.\n",
-        with_commas(other_pixels), with_commas(painter.pixels), with_commas(painter.wrong),
+        with_commas(by_tree.other_pixels), with_commas(painter.pixels), with_commas(painter.wrong),
         with_commas(painter.same_depth));
 
-    write_png(options.out / "ch03_tree.png", by_tree.image);
-    write_png(options.out / "ch03_painter.png", picture_of(scene, painted));
+    write_png(options.out / "ch03_tree.png", by_tree.drawn.image);
+    write_png(options.out / "ch03_painter.png", picture_of(same.scene(), painted));
     return {.pixels = painter.pixels,
-            .rays = rays,
-            .nodes = of_tree.nodes_visited,
-            .tests = of_tree.triangles_tested,
-            .naive_tests = of_all.triangles_tested,
-            .other_pixels = other_pixels,
+            .rays = by_tree.rays(),
+            .nodes = by_tree.drawn.counts.traversal.nodes_visited,
+            .tests = by_tree.drawn.counts.traversal.triangles_tested,
+            .naive_tests = by_all.drawn.counts.traversal.triangles_tested,
+            .other_pixels = by_tree.other_pixels,
             .painter_wrong = painter.wrong,
             .same_depth = painter.same_depth};
 }

@@ -8,6 +8,7 @@
 #include "chapters/ch04_kd_trees/kd_builder.hpp"
 #include "chapters/ch04_kd_trees/kd_config.hpp"
 #include "chapters/ch04_kd_trees/kd_nodes.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
 #include "chapters/ch04_kd_trees/placed_triangles.hpp"
 #include "common/accelerator.hpp"
 #include "common/geometry.hpp"
@@ -74,19 +75,21 @@ struct RayPart {
 };
 // [kd_ray]
 
-/// The ray's part in a box, if there is any.
+/// What of a ray's part lies in a box, if anything does. A margin keeps the order of distances: the
+/// farthest plane that the ray enters by makes the farthest end. A distance that is not a number,
+/// of a ray within a face, changes nothing.
 template <int D>
-std::optional<RayPart> part_in(const BasicAabb<D>& box, const BasicRay<D>& ray,
-                               const KdRay<D>& prepared) {
-    RayPart part = RayPart::all_of(ray);
+std::optional<RayPart> part_in(const BasicAabb<D>& box, const KdRay<D>& ray, RayPart part) {
+    double enter = -infinity, leave = infinity;
     for (int axis = 0; axis < D; ++axis) {
-        const bool upwards = prepared.far[static_cast<std::size_t>(axis)] == 1;
-        const double first = prepared.distance(axis, (upwards ? box.min : box.max)[axis]);
-        const double last = prepared.distance(axis, (upwards ? box.max : box.min)[axis]);
-        if (first > part.leave || last < part.enter) return std::nullopt;
-        part.begin_at(first);
-        part.end_at(last);
+        const bool upwards = ray.far[static_cast<std::size_t>(axis)] == 1;
+        enter = std::max(enter, ray.distance(axis, (upwards ? box.min : box.max)[axis]));
+        leave = std::min(leave, ray.distance(axis, (upwards ? box.max : box.min)[axis]));
     }
+    if (leave < part.enter) return std::nullopt;
+    part.end_at(leave);
+    if (enter > part.leave) return std::nullopt;
+    part.begin_at(enter);
     return part;
 }
 
@@ -106,7 +109,7 @@ void walk_cells(const Nodes& tree, const BasicRay<D>& ray, Counts& counts, const
                 Observer&& observer = {}) {
     if (!is_valid(ray) || tree.empty()) return;
     const KdRay<D> prepared(ray);
-    const std::optional<RayPart> in_box = part_in(tree.box, ray, prepared);
+    const std::optional<RayPart> in_box = part_in(tree.box, prepared, RayPart::all_of(ray));
     if (!in_box) return;
     RayPart part = *in_box;
     std::array<KdVisit, max_kd_depth> waiting;  // far halves, one a node above the one in hand
@@ -142,26 +145,6 @@ void walk_cells(const Nodes& tree, const BasicRay<D>& ray, Counts& counts, const
     }
 }
 // [walk]
-
-/// The triangles that a ray has tested last: where a triangle is in several cells, it need not be
-/// tested again (Amanatides & Woo 1987). On the ray's own stack: threads share nothing.
-class Mailbox {
-  public:
-    explicit Mailbox(bool used) : used_(used) { last_.fill(~0u); }
-
-    /// Whether the triangle was among the last; it is from now on.
-    bool remembers(std::uint32_t triangle) {
-        if (!used_) return false;
-        std::uint32_t& slot = last_[triangle % last_.size()];
-        if (slot == triangle) return true;
-        slot = triangle;
-        return false;
-    }
-
-  private:
-    bool used_;
-    std::array<std::uint32_t, 16> last_;
-};
 
 /// The accelerator. With the exact test its answers are those of the naive loop, bit for bit.
 template <TriangleTest Test = FilteredExact>
@@ -217,20 +200,11 @@ class KdTree {
     /// returns the t beyond which nothing matters any more.
     template <class Counts, class Found>
     void search(const Ray& ray, Counts& counts, const Found& found) const {
-        Mailbox mailbox(mailboxes_);
-        double limit = infinity;
+        PlacedTests<Test, Counts, Found> tests{placed_, nodes_.references,  ray, counts,
+                                               found,   Mailbox(mailboxes_)};
         walk_cells(nodes_, ray, counts, [&](std::uint32_t node) {
             const auto [first, count] = nodes_.own_range(node);
-            for (std::uint32_t i = first; i < first + count; ++i) {
-                const std::uint32_t place = placed_.places[i];
-                if (mailbox.remembers(place)) continue;
-                counts.test_triangle();
-                if (auto hit = Test::intersect(ray, placed_.triangles[place])) {
-                    hit->triangle = nodes_.references[i];
-                    limit = found(*hit);
-                }
-            }
-            return limit;
+            return tests.in(first, count);
         });
     }
     // [search]

@@ -2,7 +2,7 @@
 ///     ch04_kd_trees --out pictures
 ///     ch04_kd_trees --figure fig_04_01 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "chapters/ch01_naive_ray_tracing/same_picture.hpp"
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
 #include "chapters/ch04_kd_trees/measured/measurements.hpp"
 #include "chapters/ch04_kd_trees/measured/outcome.hpp"
@@ -11,7 +11,6 @@
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace space::ch04 {
@@ -20,19 +19,14 @@ namespace {
 constexpr const char* default_scene = "room:3";
 
 Options read_options(int argc, char** argv) {
-    const auto add_examples = [](CLI::App& app) {
-        app.footer(
-            "Examples:\n"
-            "  ch04_kd_trees --out pictures                 the chapter, in some minutes\n"
-            "  ch04_kd_trees --quick --scene dragon.ply\n"
-            "  ch04_kd_trees --figure all --out figures");
-    };
-    Options options =
-        parse_options(argc, argv,
-                      {.name = this_chapter.name,
-                       .about = "Chapter 4: k-d trees",
-                       .defaults = {.scene = default_scene, .width = 240, .height = 180}},
-                      add_examples);
+    Options options = parse_options(
+        argc, argv,
+        {.name = this_chapter.name,
+         .about = "Chapter 4: k-d trees",
+         .defaults = {.scene = default_scene, .width = 240, .height = 180},
+         .examples = "  ch04_kd_trees --out pictures                 the chapter, in some minutes\n"
+                     "  ch04_kd_trees --quick --scene dragon.ply\n"
+                     "  ch04_kd_trees --figure all --out figures"});
     if (options.small && options.scene == default_scene) options.scene = "stadium";
     if (options.small) options.width = 32, options.height = 24;
     if (options.quick && !options.counts) options.width /= 2, options.height /= 2;
@@ -41,24 +35,17 @@ Options read_options(int argc, char** argv) {
 
 /// One scene, without a tree and with ever better ones: the same picture.
 std::vector<PicturePoint> draw_pictures(const Options& options) {
-    const Scene scene = asked_scene(options);
-    const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const RenderSettings settings{
-        .width = options.width, .height = options.height, .threads = options.threads};
+    SamePicture same(options);
+    const std::span<const Triangle> triangles = same.triangles();
     std::vector<PicturePoint> points;
-    Image naive(options.width, options.height);
-    const auto draw = [&](const std::string& method, const auto& accelerator) {
-        Progress progress(method, static_cast<std::size_t>(settings.height));
-        const Rendering drawn = render(scene, accelerator, settings, &progress);
-        if (points.empty()) naive = drawn.image;
+    const auto draw = [&](const std::string& method, const auto& tree) {
+        const ComparedPicture picture = same.draw(method, tree);
         points.push_back({.method = method,
-                          .rays = drawn.counts.camera_rays + drawn.counts.shadow_rays,
-                          .nodes = drawn.counts.traversal.nodes_visited,
-                          .tests = drawn.counts.traversal.triangles_tested});
-        for (int y = 0; y < options.height; ++y)
-            for (int x = 0; x < options.width; ++x)
-                points.back().other_pixels += drawn.image.at(x, y) != naive.at(x, y);
-        return drawn.image;
+                          .rays = picture.rays(),
+                          .nodes = picture.drawn.counts.traversal.nodes_visited,
+                          .tests = picture.drawn.counts.traversal.triangles_tested,
+                          .other_pixels = picture.other_pixels});
+        return picture.drawn.image;
     };
 
     draw("no tree", Naive<FilteredExact>::build(triangles));
@@ -68,8 +55,7 @@ std::vector<PicturePoint> draw_pictures(const Options& options) {
     draw("at the median", KdTree<>::build(triangles, {.rule = Rule::median}));
     write_png(options.out / "ch04_tree.png", draw("by area (SAH)", KdTree<>::build(triangles)));
 
-    print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
-                              with_commas(triangles.size()), options.width, options.height));
+    same.print_heading(options);
     return points;
 }
 

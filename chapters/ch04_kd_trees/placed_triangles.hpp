@@ -2,6 +2,9 @@
 /// The triangles of a tree in the order of its leaves.
 #pragma once
 
+#include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
+#include "common/accelerator.hpp"
 #include "common/geometry.hpp"
 
 #include <cstddef>
@@ -11,7 +14,7 @@
 
 namespace space {
 
-// [place]
+// [place_triangles]
 /// Copies of triangles in the order in which a tree's references first name them: what a ray meets
 /// one after the other lies together in memory.
 struct PlacedTriangles {
@@ -36,6 +39,34 @@ struct PlacedTriangles {
         return triangles.size() * sizeof(Triangle) + places.size() * sizeof(std::uint32_t);
     }
 };
-// [place]
+// [place_triangles]
+
+// [tests]
+/// One ray's tests of the triangles that a tree names where the ray passes.
+template <TriangleTest Test, class Counts, class Found>
+struct PlacedTests {
+    const PlacedTriangles& placed;
+    std::span<const std::uint32_t> references;  ///< the tree's
+    const Ray& ray;
+    Counts& counts;
+    const Found& found;  ///< found(hit) returns the t beyond which nothing matters any more
+    Mailbox mailbox;
+    double limit = infinity;  ///< what it has returned last
+
+    /// Tests those of `count` references from `first` on that the mailbox does not remember.
+    double in(std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t i = first; i < first + count; ++i) {
+            const std::uint32_t place = placed.places[i];
+            if (mailbox.remembers(place)) continue;
+            counts.test_triangle();
+            if (auto hit = Test::intersect(ray, placed.triangles[place])) {
+                hit->triangle = references[i];
+                limit = found(*hit);
+            }
+        }
+        return limit;
+    }
+};
+// [tests]
 
 }  // namespace space

@@ -5,6 +5,7 @@
 
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
 #include "chapters/ch05_lazy_kd_trees/lazy_kd_tree.hpp"
 #include "common/accelerator.hpp"
 #include "common/limit_error.hpp"
@@ -135,7 +136,7 @@ class LazyGeometry {
     // [for_each_patch]
     /// Calls visit(patch) for each patch whose box the ray meets, cell by cell; it returns the t
     /// beyond which nothing matters any more (NaN: nothing at all). A patch that only shares a cell
-    /// with the ray is not asked for: it would be made.
+    /// with the ray is not asked for: it would be made. The visit may shorten the ray.
     template <class Counts, class Visit>
     void for_each_patch(const Ray& rest, Counts& counts, const Visit& visit) const {
         Mailbox mailbox(true);
@@ -144,7 +145,8 @@ class LazyGeometry {
         walk_cells(cells_, Ray(rest), counts, [&](std::uint32_t cell) {
             for (const std::uint32_t patch : cells_.own(cell)) {
                 if (std::isnan(limit)) break;
-                if (part_in(boxes_[patch], rest, prepared) && !mailbox.remembers(patch))
+                if (part_in(boxes_[patch], prepared, RayPart::all_of(rest)) &&
+                    !mailbox.remembers(patch))
                     limit = visit(patch);
             }
             return limit;

@@ -5,6 +5,7 @@
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
 #include "chapters/ch05_lazy_kd_trees/lazy_kd_nodes.hpp"
 #include "common/accelerator.hpp"
 #include "common/geometry.hpp"

@@ -10,7 +10,6 @@
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace space::ch05 {
@@ -19,19 +18,15 @@ namespace {
 constexpr const char* default_scene = "room:3";
 
 Options read_options(int argc, char** argv) {
-    const auto add_examples = [](CLI::App& app) {
-        app.footer(
-            "Examples:\n"
-            "  ch05_lazy_kd_trees --out pictures                 the chapter, in some minutes\n"
-            "  ch05_lazy_kd_trees --quick --scene dragon.ply\n"
-            "  ch05_lazy_kd_trees --figure all --out figures");
-    };
-    Options options =
-        parse_options(argc, argv,
-                      {.name = this_chapter.name,
-                       .about = "Chapter 5: lazy k-d trees",
-                       .defaults = {.scene = default_scene, .width = 320, .height = 240}},
-                      add_examples);
+    Options options = parse_options(
+        argc, argv,
+        {.name = this_chapter.name,
+         .about = "Chapter 5: lazy k-d trees",
+         .defaults = {.scene = default_scene, .width = 320, .height = 240},
+         .examples =
+             "  ch05_lazy_kd_trees --out pictures                 the chapter, in some minutes\n"
+             "  ch05_lazy_kd_trees --quick --scene dragon.ply\n"
+             "  ch05_lazy_kd_trees --figure all --out figures"});
     if (options.small && options.scene == default_scene) {
         options.scene = "stadium";
         options.width = 32, options.height = 24;

@@ -1,6 +1,6 @@
 /// @file
 /// Neighbours over faces, found from codes (Schrack 1992, "Finding Neighbors of Equal Size in
-/// Linear Quadtrees and Octrees in Constant Time"; Samet 1990, section 3).
+/// Linear Quadtrees and Octrees in Constant Time"; Samet 1990, chapter 3).
 #pragma once
 
 #include "chapters/ch06_quadtrees_and_octrees/linear_orthtree.hpp"

@@ -47,7 +47,8 @@ struct BoxedOrthtree {
         std::vector<Point<D>> middles(polygons.size());
         BasicAabb<D> around_middles;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
-            for (int corner = 0; corner < D; ++corner) own[i].extend(polygons[i][corner]);
+            own[i] = box_if_finite<D>(polygons[i]);
+            if (own[i].is_empty()) continue;  // it may stand anywhere
             middles[i] = own[i].centroid();
             around_middles.extend(middles[i]);
         }
@@ -62,28 +63,6 @@ struct BoxedOrthtree {
     }
     // [boxed_build]
 };
-
-// [part_in_box]
-/// The ray's part in a box, if there is any: chapter 4's part_in, with its margin taken once for
-/// all axes, and only where the ray leaves. Where it enters is held against planes, for which one
-/// margin is enough, and against the end of what matters, a float beyond each t that counts, and
-/// farther beyond than doubles err. What is not a number, on a ray that lies in a face, changes
-/// nothing.
-template <int D>
-std::optional<RayPart> part_in_box(const BasicAabb<D>& box, const KdRay<D>& ray, RayPart part) {
-    double enter = -infinity, leave = infinity;
-    for (int axis = 0; axis < D; ++axis) {
-        const bool upwards = ray.far[static_cast<std::size_t>(axis)] == 1;
-        enter = std::max(enter, ray.distance(axis, (upwards ? box.min : box.max)[axis]));
-        leave = std::min(leave, ray.distance(axis, (upwards ? box.max : box.min)[axis]));
-    }
-    if (leave < part.enter) return std::nullopt;
-    part.end_at(leave);
-    if (enter > part.leave) return std::nullopt;
-    part.enter = std::max(part.enter, enter);
-    return part;
-}
-// [part_in_box]
 
 /// Event: the walk has come to a node, with this part of the ray in its box.
 struct BoxVisit {
@@ -105,7 +84,7 @@ void walk_boxes(const BoxedOrthtree<D>& tree, const BasicRay<D>& ray, Counts& co
     std::array<BoxVisit, 1 + max_orthtree_depth<D>*(orthants<D> - 1)> waiting;
     std::size_t size = 0;
     const auto consider = [&](std::uint32_t node, std::size_t first) {
-        const auto part = part_in_box(tree.boxes[node], prepared, whole);
+        const auto part = part_in(tree.boxes[node], prepared, whole);
         if (!part) return;
         std::size_t at = size++;
         for (; at > first && waiting[at - 1].part.enter < part->enter; --at)

@@ -1,8 +1,8 @@
 /// Chapter 6: quadtrees and octrees, whose cells are cut in the middle of every axis at once.
 ///     ch06_quadtrees_and_octrees --out pictures
-///     ch06_quadtrees_and_octrees --figure fig_06_06 --out figures
+///     ch06_quadtrees_and_octrees --figure fig_06_07 --out figures
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
-#include "chapters/ch01_naive_ray_tracing/ray_tracing.hpp"
+#include "chapters/ch01_naive_ray_tracing/same_picture.hpp"
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/linear_octree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/measured/adaptive.hpp"
@@ -12,7 +12,6 @@
 #include "common/measure.hpp"
 #include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
-#include "common/program/progress.hpp"
 #include "common/program/report.hpp"
 
 #include <fmt/format.h>
@@ -36,33 +35,22 @@ Options read_options(int argc, char** argv) {
 
 /// One scene by ever other cells: the same picture. @return pixels that are not the same
 std::uint64_t draw_pictures(const Options& options) {
-    const Scene scene = asked_scene(options);
-    const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const RenderSettings settings{
-        .width = options.width, .height = options.height, .threads = options.threads};
+    SamePicture same(options);
+    const std::span<const Triangle> triangles = same.triangles();
     Table table({"rays and shadow rays", "bytes per triangle", "nodes per ray", "tests per ray",
                  "other pixels"});
-    Image naive(options.width, options.height);
     std::uint64_t others = 0;
-    const auto draw = [&](const std::string& method, const auto& tree, bool is_first = false) {
-        Progress progress(method, static_cast<std::size_t>(settings.height));
-        const Rendering drawn = render(scene, tree, settings, &progress);
-        if (is_first) naive = drawn.image;
-        std::uint64_t other = 0;
-        for (int y = 0; y < options.height; ++y)
-            for (int x = 0; x < options.width; ++x) other += drawn.image.at(x, y) != naive.at(x, y);
-        others += other;
-        const auto rays = double(drawn.counts.camera_rays + drawn.counts.shadow_rays);
-        const TraversalCounts& counts = drawn.counts.traversal;
-        table.row(
-            {method, fmt::format("{:.0f}", double(tree.shape().bytes) / double(triangles.size())),
-             fmt::format("{:.1f}", double(counts.nodes_visited) / rays),
-             fmt::format("{:.1f}", double(counts.triangles_tested) / rays), with_commas(other)});
-        return drawn.image;
+    const auto draw = [&](const std::string& method, const auto& tree) {
+        const ComparedPicture picture = same.draw(method, tree);
+        others += picture.other_pixels;
+        table.row({method, fixed(double(tree.shape().bytes) / double(triangles.size()), 0),
+                   fixed(picture.nodes_per_ray(), 1), fixed(picture.tests_per_ray(), 1),
+                   with_commas(picture.other_pixels)});
+        return picture.drawn.image;
     };
 
     using Straddlers = OctreeConfig::Straddlers;
-    draw("no tree", Naive<FilteredExact>::build(triangles), true);
+    draw("no tree", Naive<FilteredExact>::build(triangles));
     write_png(options.out / "ch06_octree.png", draw("octree", Octree<>::build(triangles)));
     draw("straddlers kept", Octree<>::build(triangles, {.straddlers = Straddlers::keep}));
     draw("kept in loose cells",
@@ -70,8 +58,7 @@ std::uint64_t draw_pictures(const Options& options) {
     draw("linear, with boxes", LinearOctree<>::build(triangles));
     draw("SAH k-d tree", KdTree<>::build(triangles));
 
-    print_heading(fmt::format("{}: {} triangles, {} x {} pixels", options.scene,
-                              with_commas(triangles.size()), options.width, options.height));
+    same.print_heading(options);
     table.print();
     return others;
 }

@@ -4,7 +4,7 @@
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
 #include "chapters/ch04_kd_trees/placed_triangles.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_builder.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_config.hpp"
@@ -74,20 +74,13 @@ class Octree {
     /// returns the t beyond which nothing matters any more.
     template <class Counts, class Found>
     void search(const Ray& ray, Counts& counts, const Found& found) const {
-        Mailbox mailbox(config_.mailboxes && config_.straddlers == Config::Straddlers::duplicate);
-        double limit = infinity;
+        const bool remembers =
+            config_.mailboxes && config_.straddlers == Config::Straddlers::duplicate;
+        PlacedTests<Test, Counts, Found> tests{placed_, nodes_.references, ray, counts,
+                                               found,   Mailbox(remembers)};
         walk_orthtree(nodes_, config_.walk, ray, counts, [&](std::uint32_t index) {
             const OrthtreeNode& node = nodes_.nodes[index];
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                const std::uint32_t place = placed_.places[i];
-                if (mailbox.remembers(place)) continue;
-                counts.test_triangle();
-                if (auto hit = Test::intersect(ray, placed_.triangles[place])) {
-                    hit->triangle = nodes_.references[i];
-                    limit = found(*hit);
-                }
-            }
-            return limit;
+            return tests.in(node.first, node.count);
         });
     }
     // [search]

@@ -25,15 +25,16 @@ namespace space {
 
 /// Makes a tree of polygons and tells an observer each step.
 ///
-/// *Nothing is lost.* For each cell of the tree and each point of a polygon in the closed cell: the
-/// node or one below it, in whose closed cell the point lies, too, names the polygon. For a polygon
-/// that the node hands on is on either side of each middle plane as far as its closed box reaches,
-/// or, where it lies in the plane, above; so the point lies in the closed cell of a child on which
-/// no axis is against it, and there the overlap finds it. In a tree that keeps straddlers the cell
-/// holds all of the polygon.
+/// *Nothing is lost.* Each point of a polygon lies in the closed cell of a node that names the
+/// polygon. The root is given all polygons that are finite; no ray can hit another one. Let a node
+/// be given the polygon, and its closed cell hold the point. If the node hands it on, it is on
+/// either side of each middle plane as far as its closed box reaches, or, where it lies in the
+/// plane, above; so the point lies in the closed cell of a child on which no axis is against it.
+/// There the overlap finds it, and the child is given the polygon. In a tree that keeps straddlers
+/// the cell holds all of the polygon.
 ///
 /// *How large it may get.* Let r be the references of the children over those of the node: at least
-/// 1, since nothing is lost. The product of all r from the root to a leaf stays below max_growth.
+/// 1, since nothing is lost. The product of all r from the root to a leaf is at most max_growth.
 /// Below a node with m references and product g all leaves together name at most m max_growth / g:
 /// true for a leaf, and by induction for r m references with product r g. So n polygons have at
 /// most max_growth n references, however many of them lie in one place; and every node that is no
@@ -55,13 +56,15 @@ class OrthtreeBuilder {
         bool is_cut;
     };
 
+    /// Polygons that are not finite are left out.
     /// @throws LimitError where it would name more than config.max_references, or a node more than
     /// it can
     template <class Observer = NoObserver>
     static OrthtreeNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {},
                                   Observer&& observer = {}) {
-        if (polygons.empty()) return {};
-        return OrthtreeBuilder(polygons, config).run(observer);
+        OrthtreeBuilder builder(polygons, config);
+        if (builder.tree_.bounds.is_empty()) return {};
+        return builder.run(observer);
     }
 
   private:
@@ -85,7 +88,7 @@ class OrthtreeBuilder {
         tree_.looseness = keeps() ? config.looseness : 1.0;
         boxes_.resize(polygons.size());
         for (std::size_t i = 0; i < polygons.size(); ++i) {
-            for (int corner = 0; corner < D; ++corner) boxes_[i].extend(polygons[i][corner]);
+            boxes_[i] = box_if_finite<D>(polygons[i]);
             tree_.bounds.extend(boxes_[i]);
         }
         tree_.frame = OrthtreeFrame<D>::around(tree_.bounds);
@@ -114,10 +117,11 @@ class OrthtreeBuilder {
     // [run]
 
     Task root() {
-        count_references(0);
         tree_.nodes.resize(1);
         Task task{0, {}, OrthtreeCube<D>::of(tree_.frame), {}};
-        for (std::uint32_t i = 0; i < polygons_.size(); ++i) task.polygons.push_back(i);
+        for (std::uint32_t i = 0; i < polygons_.size(); ++i)
+            if (!boxes_[i].is_empty()) task.polygons.push_back(i);
+        count_references(task.polygons.size());
         return task;
     }
 
@@ -129,7 +133,7 @@ class OrthtreeBuilder {
         if (task.cell.depth >= max_depth_ || size <= config_.max_leaf_size || cut.handed_on == 0)
             return false;
         const double names = double(cut.kept + cut.handed_on);
-        if (task.growth * names > config_.max_growth * double(size)) return false;
+        if (!(task.growth * names <= config_.max_growth * double(size))) return false;
         const double tests = double(cut.kept) + double(cut.handed_on) / double(1 << (D - 1));
         return config_.costs.traversal + config_.costs.intersection * tests <
                config_.costs.intersection * double(size);
@@ -241,10 +245,10 @@ class OrthtreeBuilder {
 
     std::span<const Simplex<D>> polygons_;
     Config config_;
-    std::vector<BasicAabb<D>> boxes_;  ///< of the polygons
+    std::vector<BasicAabb<D>> boxes_;  ///< of the polygons; empty of those left out
     OrthtreeNodes<D> tree_;
     std::uint32_t max_depth_ = 0;
-    std::size_t references_ = polygons_.size();  ///< of nodes and waiting tasks
+    std::size_t references_ = 0;  ///< of nodes and waiting tasks
 };
 
 }  // namespace space

@@ -120,9 +120,7 @@ struct OrthtreeFrame {
         return corner[axis] + double(place) * cell_edge(depth);
     }
     /// edge / 2^depth (BvhThesis13, lemma of section 2.1.2), exactly.
-    double cell_edge(std::uint32_t depth) const {
-        return std::ldexp(edge, -static_cast<int>(depth));
-    }
+    double cell_edge(std::uint32_t depth) const { return edge / double(std::uint64_t{1} << depth); }
     OrthtreeBox<D> box(const OrthtreeCell<D>& cell) const {
         OrthtreeBox<D> result;
         for (int axis = 0; axis < D; ++axis)

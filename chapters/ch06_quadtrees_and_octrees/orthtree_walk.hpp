@@ -244,7 +244,7 @@ void walk_orthtree(const Nodes& tree, OctreeConfig::Walk way, const BasicRay<D>&
                    Counts& counts, const Own& own, Observer&& observer = {}) {
     if (!is_valid(ray) || tree.empty()) return;
     const OrthtreeRay<D> prepared(ray);
-    const std::optional<RayPart> part = part_in(tree.bounds, ray, prepared);
+    const std::optional<RayPart> part = part_in(tree.bounds, prepared, RayPart::all_of(ray));
     if (!part) return;
     const OrthtreeVisit<D, typename Nodes::Handle> root{tree.root(),
                                                         OrthtreeCube<D>::of(tree.frame), *part};

@@ -46,7 +46,7 @@ class NaiveAnswers {
             [&](const StructureVariant& v) { return v.triangle_test == triangle_test; });
         hits.resize(rays_.size());
         Progress progress("checking", rays_.size());
-        variant->build(triangles_, options_.build)
+        variant->build_from_triangles(triangles_, options_.build)
             .trace({rays_, hits, options_.query, options_.common.threads, &progress});
         return hits;
     }

@@ -1,15 +1,24 @@
 #include "chapters/ch12_comparison/lab.hpp"
 
+#include "chapters/ch09_instancing_and_motion/instance_file.hpp"
+#include "chapters/ch09_instancing_and_motion/nested_scenes.hpp"
 #include "chapters/ch12_comparison/lab_options.hpp"
 #include "chapters/ch12_comparison/lab_report.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/report.hpp"
+#include "common/scene.hpp"
+#include "common/scenes/shapes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace space {
 namespace {
@@ -30,13 +39,87 @@ std::string camera_text(const Camera& camera) {
 
 Scene load(const LabOptions& options) {
     if (options.mesh.empty() && options.common.scene.empty())
-        throw usage_error("give --mesh FILE or --scene NAME");
+        throw usage_error("give --mesh FILE, --scene NAME or --instances FILE");
     if (options.mesh.empty()) return make_scene(options.common.scene, options.common.seed);
     Scene scene;
     scene.name = options.mesh.stem().string();
     scene.mesh = load_mesh(options.mesh);
     frame_mesh(scene);
     return scene;
+}
+
+/// Those of the points that lie farthest out, in 26 directions.
+std::vector<Double3> farthest(std::span<const Double3> points) {
+    std::vector<Double3> kept;
+    for (int i = 0; i < 27 && !points.empty(); ++i) {
+        const Double3 direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        kept.push_back(*std::ranges::max_element(
+            points, {}, [&](const Double3& p) { return glm::dot(p, direction); }));
+    }
+    return kept;
+}
+
+/// The box of what it holds, nearly: from below, each object's farthest points stand for it. (Boxes
+/// of turned boxes would do for all but a picture: they grow with every level.)
+Aabb box_around(const SceneGraph& graph) {
+    std::vector<std::vector<Double3>> outline(graph.objects().size());
+    for (const std::uint32_t i : graph.from_below()) {
+        std::vector<Double3> points;
+        for (const Triangle& triangle : graph.object(i).triangles)
+            if (!box_if_finite<3>(triangle).is_empty())
+                for (int corner = 0; corner < 3; ++corner) points.emplace_back(triangle[corner]);
+        for (const Instance& instance : graph.object(i).instances)
+            for (const Double3& point : outline[instance.object])
+                points.push_back(instance.to_parent.point(point));
+        outline[i] = farthest(points);
+    }
+    Aabb box;
+    for (const Double3& point : outline[graph.root()])
+        if (is_finite<3>(Point3(point))) box.extend(Point3(point));
+    return box;
+}
+
+/// What is asked, as the options have it.
+struct Subject {
+    Scene scene;  ///< of a graph: name and camera, and a box that it fills
+    std::optional<SceneGraph> graph = {};
+    std::vector<Triangle> triangles = {};
+    std::size_t degenerate = 0;
+
+    Geometry geometry() const { return {triangles, graph ? &*graph : nullptr}; }
+    Triangle triangle(std::uint64_t i) const { return graph ? graph->triangle(i) : triangles[i]; }
+};
+
+Subject subject_of(const LabOptions& options) {
+    if (options.instances.empty()) {
+        Subject subject{load(options)};
+        subject.triangles = subject.scene.mesh.triangles();
+        subject.degenerate = count_degenerate(subject.triangles);
+        return subject;
+    }
+    Subject subject;
+    const bool from_file = options.instances_are_in_file();
+    InstanceFile file = from_file ? load_instances(options.instances)
+                                  : InstanceFile{make_nested_scene(options.instances), {}};
+    subject.graph = std::move(file.graph);
+    const std::uint64_t count = subject.graph->triangle_count();
+    if (options.flatten) {
+        if (count > options.build.limits.references)
+            throw usage_error(fmt::format("--flatten: {} triangles, more than --max-references {}",
+                                          count, options.build.limits.references));
+        subject.triangles = flatten(*subject.graph);
+        subject.degenerate = count_degenerate(subject.triangles);
+    }
+    const Aabb around = box_around(*subject.graph);
+    Scene& scene = subject.scene;
+    scene.name =
+        from_file ? std::filesystem::path(options.instances).stem().string() : options.instances;
+    if (!around.is_empty()) {
+        scene.mesh = box(Double3(around.min), Double3(around.max));
+        frame_mesh(scene);
+    }
+    scene.mesh.remarks = std::move(file.remarks);
+    return subject;
 }
 
 /// A peer has one test, its own.
@@ -53,10 +136,16 @@ std::vector<Choice> choose(std::span<const Structure> structures, const LabOptio
     std::vector<Choice> chosen;
     for (const std::string& name : options.structures) {
         const std::size_t before = chosen.size();
-        for (const Structure& structure : structures)
-            if (name == "all" || (name == "default" && structure.by_default) ||
-                name == structure.name)
+        for (const Structure& structure : structures) {
+            const bool takes_it = options.instances.empty() || options.flatten ||
+                                  structure.variants.front().build_from_graph;
+            if (name == structure.name && !takes_it)
+                throw usage_error(fmt::format(
+                    "--structure {}: it takes triangles, not instances: add --flatten", name));
+            if (name == structure.name ||
+                (takes_it && (name == "all" || (name == "default" && structure.by_default))))
                 chosen.push_back(choose(structure, options.triangle_test));
+        }
         if (chosen.size() == before)
             throw usage_error(
                 fmt::format("--structure {}: no such structure (see --structure list){}", name,
@@ -92,19 +181,28 @@ int list_triangle_tests(std::span<const Structure> structures) {
     return static_cast<int>(ExitCode::ok);
 }
 
-/// Exact answers to the rays, by the last structure of the latest chapter that stands.
-std::vector<HitRecord> exact_hits(std::span<const Structure> structures,
-                                  std::span<const Triangle> triangles, std::span<const Ray> rays,
-                                  const LabOptions& options) {
+/// Exact answers to the rays, by the last structure of the latest chapter that stands; of a scene
+/// graph, by the first structure that knows graphs.
+std::vector<HitRecord> exact_hits(std::span<const Structure> structures, const Geometry& geometry,
+                                  std::span<const Ray> rays, const LabOptions& options) {
     std::vector<HitRecord> hits(rays.size());
     std::string_view tried;
+    if (geometry.graph)
+        structures = structures.first(
+            1 +
+            static_cast<std::size_t>(
+                std::ranges::find_if(structures,
+                                     [](const Structure& structure) {
+                                         return bool(structure.variants.front().build_from_graph);
+                                     }) -
+                structures.begin()));
     for (auto structure = structures.rbegin(); structure != structures.rend(); ++structure) {
         if (structure->is_peer || structure->home == tried) continue;
         tried = structure->home;
         try {
             Progress progress("camera rays", rays.size());
             structure->variants.front()
-                .build(triangles, options.build)
+                .build(geometry, options.build)
                 .trace({rays, hits, Query::closest, options.common.threads, &progress});
             break;
         } catch (const std::exception&) {
@@ -119,10 +217,10 @@ struct RaySet {
     std::string source;  ///< the options that give them again
 };
 
-RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const Triangle> triangles,
+RaySet make_rays(const LabOptions& options, const Subject& subject,
                  std::span<const Structure> structures) {
     if (!options.rays.empty()) return {read_rays(options.rays), "--rays " + options.rays.string()};
-    const Camera camera = options.camera.value_or(scene.camera);
+    const Camera camera = options.camera.value_or(subject.scene.camera);
     const int width = options.common.width, height = options.common.height;
     if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > max_rays)
         throw usage_error(fmt::format("--size {}x{}: more than {} rays", width, height, max_rays));
@@ -130,21 +228,55 @@ RaySet make_rays(const LabOptions& options, const Scene& scene, std::span<const 
                fmt::format("--camera {} --size {}x{}", camera_text(camera), width, height)};
     if (options.diffuse == 0) return set;
 
-    const std::vector<HitRecord> hits = exact_hits(structures, triangles, set.rays, options);
-    set.rays = diffuse_rays(triangles, set.rays, hits, options.diffuse, options.common.seed);
+    const std::vector<HitRecord> hits =
+        exact_hits(structures, subject.geometry(), set.rays, options);
+    set.rays = diffuse_rays([&](std::uint64_t i) { return subject.triangle(i); }, set.rays, hits,
+                            options.diffuse, options.common.seed);
     if (set.rays.empty())
         throw usage_error("--diffuse: no camera ray hits the mesh, so there is nowhere to start");
     set.source += fmt::format(" --diffuse {} --seed {}", options.diffuse, options.common.seed);
     return set;
 }
 
-void print_head(const Scene& scene, std::size_t degenerate, const RaySet& set, bool with_peers,
+std::size_t instance_count(const SceneGraph& graph) {
+    std::size_t count = 0;
+    for (const GraphObject& object : graph.objects()) count += object.instances.size();
+    return count;
+}
+
+MeshFacts mesh_facts(const LabOptions& options, const Subject& subject) {
+    if (!subject.graph)
+        return {.name = subject.scene.name,
+                .file = options.mesh.string(),
+                .triangles = subject.triangles.size(),
+                .vertices = subject.scene.mesh.vertices.size(),
+                .degenerate = subject.degenerate};
+    MeshFacts facts{.name = subject.scene.name,
+                    .file = options.instances_are_in_file() ? options.instances : "",
+                    .triangles = subject.graph->triangle_count(),
+                    .objects = subject.graph->objects().size(),
+                    .instances = instance_count(*subject.graph)};
+    if (options.flatten) facts.degenerate = subject.degenerate;
+    return facts;
+}
+
+void print_head(const Subject& subject, bool flattened, const RaySet& set, bool with_peers,
                 std::FILE* out) {
-    fmt::print(out, "mesh    {}: {}, {}, {} degenerate\n", scene.name,
-               scene.mesh.vertices.size() == 1
-                   ? "1 vertex"
-                   : with_commas(scene.mesh.vertices.size()) + " vertices",
-               counted(scene.mesh.faces.size(), "triangle"), with_commas(degenerate));
+    const Scene& scene = subject.scene;
+    if (subject.graph)
+        fmt::print(out, "scene   {}: {} by {} of {}{}\n", scene.name,
+                   counted(subject.graph->triangle_count(), "triangle"),
+                   counted(instance_count(*subject.graph), "instance"),
+                   counted(subject.graph->objects().size(), "object"),
+                   flattened
+                       ? fmt::format("; flattened, {} degenerate", with_commas(subject.degenerate))
+                       : "");
+    else
+        fmt::print(out, "mesh    {}: {}, {}, {} degenerate\n", scene.name,
+                   scene.mesh.vertices.size() == 1
+                       ? "1 vertex"
+                       : with_commas(scene.mesh.vertices.size()) + " vertices",
+                   counted(scene.mesh.faces.size(), "triangle"), with_commas(subject.degenerate));
     const auto invalid = static_cast<std::uint64_t>(std::count_if(
         set.rays.begin(), set.rays.end(), [](const Ray& ray) { return !is_valid(ray); }));
     fmt::print(out, "rays    {}: {}", set.source, counted(set.rays.size(), "ray"));
@@ -181,29 +313,31 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     check_outputs(options);
     std::FILE* const out = options.json_to_stdout() ? stderr : stdout;
 
-    const Scene scene = load(options);
-    print_remarks("lab", scene.mesh.remarks);
-    const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const std::size_t degenerate = count_degenerate(triangles);
-    const RaySet set = make_rays(options, scene, triangles, structures);
-    print_head(scene, degenerate, set, has_peers(structures), out);
+    const Subject subject = subject_of(options);
+    print_remarks("lab", subject.scene.mesh.remarks);
+    const RaySet set = make_rays(options, subject, structures);
+    print_head(subject, options.flatten, set, has_peers(structures), out);
 
-    const std::vector<Measurement> measurements = measure(chosen, triangles, set.rays, options);
+    const std::vector<Measurement> measurements =
+        measure(chosen, subject.geometry(), set.rays, options);
     const auto against = std::find_if(measurements.begin(), measurements.end(),
                                       [&](auto& m) { return m.name() == options.against; });
     const Measurement* const reference = against == measurements.end() ? nullptr : &*against;
     print_measurements(measurements, reference, options, out);
-    print_hint(options, scene, measurements, out);
+    print_hint(options, subject.scene, measurements, out);
     std::vector<Checked> checked;
     if (options.check) {
-        checked = check(structures.front(), triangles, set.rays, measurements, options, out);
+        checked =
+            check(structures.front(), subject.triangles, set.rays, measurements, options, out);
         print_checked(measurements, checked, out);
     }
 
     if (!options.hits.empty() && measurements.front().stands())
-        write_file(options.hits, hits_bytes(measurements.front().hits));
+        write_file(options.hits, subject.graph
+                                     ? hits_bytes<std::uint64_t>(measurements.front().hits)
+                                     : hits_bytes<std::uint32_t>(measurements.front().hits));
     const std::string json =
-        json_text(options, scene, degenerate, measurements, reference, checked);
+        json_text(options, mesh_facts(options, subject), measurements, reference, checked);
     if (options.json_to_stdout())
         write_to(stdout, json);
     else if (!options.json.empty())

@@ -1,5 +1,6 @@
 #include "chapters/ch12_comparison/lab_options.hpp"
 
+#include "chapters/ch09_instancing_and_motion/instance_file.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/scene.hpp"
@@ -23,6 +24,12 @@ constexpr int max_repeat = 10'000;
 constexpr const char* formats = R"(
 Files
   --mesh   OBJ, OFF, PLY or STL. What its reader passes over is said on standard error: lab: note:
+  --instances  JSON: {"meshes": {NAME: MESH, ...}, "groups": {NAME: [INSTANCE, ...], ...},
+           "scene": NAME}. A MESH is a file, seen from this one's folder, or a scene of the book
+           such as "tree:5"; an INSTANCE is {"object": NAME, "matrix": [[4 numbers], [4], [4]]}, the
+           matrix from the object's points to the group's; without it the object stays where it is.
+           A group may hold groups, but not itself. Or no file, but one of sphereflake, tetra,
+           jacks (each with :LEVELS) and forest (:TREES along a side).
   --rays   records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. A ray is
            origin + t direction with t in [tmin, tmax]; the direction need not have length 1. A ray
            with a NaN, an infinite origin or direction, a direction of zero or tmin > tmax is a
@@ -32,6 +39,8 @@ Files
            the mesh file). t is in units of the direction; the point is (1 - u - v) a + u b + v c.
            A miss is t = infinity, u = v = 0, triangle 0xFFFFFFFF. With --query any a hit has no
            triangle and no place: t = u = v = 0, triangle 0xFFFFFFFE. Needs exactly one structure.
+           With --instances the triangle is a uint64, counted depth first, a group's instances in
+           their order; a miss has 0xFFFFFFFFFFFFFFFF, and a hit of --query any one less.
   --json   the tables as JSON: version, machine, mesh, query, against, limits, structures; null
            where a figure has no meaning. With '-' or /dev/stdout what is printed otherwise goes to
            standard error.
@@ -115,6 +124,16 @@ void add_file_options(CLI::App& app, LabOptions& options) {
     auto* json = app.add_option("--json", options.json,
                                 "write the measurements to this file; '-' is standard output");
     for (CLI::Option* option : {mesh, rays, hits, json}) option->type_name("FILE")->check(named);
+    auto* instances =
+        app.add_option("--instances", options.instances,
+                       "a scene of instances, for structures that know them: see below")
+            ->type_name("FILE|NAME[:SIZE]")
+            ->check(named)
+            ->excludes(mesh)
+            ->excludes(app.get_option("--scene"));
+    app.add_flag("--flatten", options.flatten,
+                 "and its triangles in one mesh, for all other structures and for --check")
+        ->needs(instances);
 }
 
 /// Which rays are traced, but for --rays. @return --camera's numbers, when it has been parsed
@@ -141,11 +160,11 @@ void add_build_options(CLI::App& app, BuildOptions& build) {
         "for builders that use several; default: as --threads");
     add_whole_number(
         app, "--max-references", 1, any, [&](std::uint64_t n) { build.limits.references = n; },
-        "memory: a structure gives up beyond so many triangles or pieces of them in its leaves")
+        "memory: structures that name triangles several times give up beyond so many names")
         ->default_str(fmt::format("{}", build.limits.references));
     add_whole_number(
         app, "--max-placements", 1, any, [&](std::uint64_t n) { build.limits.placements = n; },
-        "time: a builder gives up after it has put a triangle or a piece somewhere so many times")
+        "time: a BSP builder gives up after it has put triangles or pieces somewhere so many times")
         ->default_str(fmt::format("{}", build.limits.placements));
 }
 
@@ -181,6 +200,8 @@ LabOptions parse_lab_options(int argc, char** argv) {
     options.structures = split(structures);
     if (std::ranges::count(options.structures, "") > 0)
         throw usage_error("--structure: the name of a structure is missing (see --structure list)");
+    if (!options.instances.empty() && options.check && !options.flatten)
+        throw usage_error("--check: naive tracing needs triangles: add --flatten");
     options.query = query == "any" ? Query::any : Query::closest;
     if (*camera_numbers) options.camera = parse_camera(**camera_numbers);
     if (options.common.threads == 0)
@@ -190,8 +211,12 @@ LabOptions parse_lab_options(int argc, char** argv) {
 }
 
 void check_outputs(const LabOptions& options) {
-    const std::filesystem::path inputs[] = {options.mesh, options.rays,
-                                            scene_file(options.common.scene)};
+    std::vector<std::filesystem::path> inputs{options.mesh, options.rays,
+                                              scene_file(options.common.scene)};
+    if (options.instances_are_in_file()) {
+        inputs = meshes_of_instances(options.instances);
+        inputs.insert(inputs.end(), {options.instances, options.rays});
+    }
     constexpr const char* streams[] = {"/dev/stdout", "/dev/stderr"};
     for (const std::filesystem::path& input : inputs)
         for (const char* stream : streams)

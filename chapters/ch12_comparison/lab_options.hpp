@@ -19,6 +19,8 @@ namespace space {
 struct LabOptions {
     Options common{.width = 160, .height = 120};  ///< small enough for naive tracing of a bunny
     std::filesystem::path mesh;
+    std::string instances;  ///< a file, or a nested scene's name
+    bool flatten = false;   ///< and all structures are asked, not those alone that know instances
     std::filesystem::path rays;
     std::optional<Camera> camera;
     std::size_t diffuse = 0;
@@ -31,6 +33,9 @@ struct LabOptions {
     bool check = false;
     std::filesystem::path hits, json;
 
+    bool instances_are_in_file() const {
+        return instances.find_first_of("./") != std::string::npos;
+    }
     bool json_to_stdout() const {
         return json == "-" || json == "/dev/stdout" || json == "/dev/fd/1";
     }

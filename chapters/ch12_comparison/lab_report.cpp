@@ -11,7 +11,7 @@
 namespace space {
 namespace {
 
-constexpr int json_version = 2;  // of the layout of --json
+constexpr int json_version = 3;  // of the layout of --json
 
 using Json = nlohmann::ordered_json;
 
@@ -164,18 +164,20 @@ void print_checked(std::span<const Measurement> measurements, std::span<const Ch
     fmt::print(out, "{}\n", table.text());
 }
 
-std::string json_text(const LabOptions& options, const Scene& scene, std::size_t degenerate,
+std::string json_text(const LabOptions& options, const MeshFacts& facts,
                       std::span<const Measurement> measurements, const Measurement* against,
                       std::span<const Checked> checked) {
     Json list = Json::array();
     for (std::size_t i = 0; i < measurements.size(); ++i)
         list.push_back(structure_json(measurements[i], against,
                                       checked.empty() ? nullptr : &checked[i], options));
-    const Json mesh{{"name", scene.name},
-                    {"file", options.mesh.empty() ? Json(nullptr) : Json(options.mesh.string())},
-                    {"vertices", scene.mesh.vertices.size()},
-                    {"triangles", scene.mesh.faces.size()},
-                    {"degenerate", degenerate}};
+    const Json mesh{{"name", facts.name},
+                    {"file", facts.file.empty() ? Json(nullptr) : Json(facts.file)},
+                    {"vertices", or_null(facts.vertices)},
+                    {"triangles", facts.triangles},
+                    {"degenerate", or_null(facts.degenerate)},
+                    {"objects", or_null(facts.objects)},
+                    {"instances", or_null(facts.instances)}};
     const Json limits{{"references", options.build.limits.references},
                       {"placements", options.build.limits.placements}};
     const Json document{{"version", json_version},

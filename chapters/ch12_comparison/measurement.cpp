@@ -27,9 +27,8 @@ void attempt(Measurement& measurement, BuiltStructure& built, const Work& work) 
     measurement.hits = {};
 }
 
-std::vector<double> build_all(std::span<Measurement> measurements,
-                              std::span<const Triangle> triangles, std::span<BuiltStructure> built,
-                              const LabOptions& options) {
+std::vector<double> build_all(std::span<Measurement> measurements, const Geometry& geometry,
+                              std::span<BuiltStructure> built, const LabOptions& options) {
     const std::size_t runs_each = static_cast<std::size_t>(options.repeat) + 1;  // one to warm up
     Progress progress("building", runs_each * measurements.size());
     std::vector<std::function<void()>> runs;
@@ -39,7 +38,7 @@ std::vector<double> build_all(std::span<Measurement> measurements,
         runs.push_back([&built = built[i]] { built = {}; });
         runs.push_back([&, &built = built[i]] {
             attempt(measurement, built,
-                    [&] { built = measurement.choice.variant->build(triangles, options.build); });
+                    [&] { built = measurement.choice.variant->build(geometry, options.build); });
             progress.step();
         });
     }
@@ -78,13 +77,12 @@ std::size_t Measurement::hit_count() const {
         std::count_if(hits.begin(), hits.end(), [](auto& hit) { return hit.is_hit(); }));
 }
 
-std::vector<Measurement> measure(std::span<const Choice> chosen,
-                                 std::span<const Triangle> triangles, std::span<const Ray> rays,
-                                 const LabOptions& options) {
+std::vector<Measurement> measure(std::span<const Choice> chosen, const Geometry& geometry,
+                                 std::span<const Ray> rays, const LabOptions& options) {
     std::vector<Measurement> measurements;
     for (const Choice& choice : chosen) measurements.push_back({.choice = choice});
     std::vector<BuiltStructure> built(chosen.size());
-    const std::vector<double> build_ms = build_all(measurements, triangles, built, options);
+    const std::vector<double> build_ms = build_all(measurements, geometry, built, options);
     for (std::size_t i = 0; i < chosen.size(); ++i)
         attempt(measurements[i], built[i], [&] {
             measurements[i].build_threads = built[i].build_threads;

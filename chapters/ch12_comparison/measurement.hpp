@@ -39,8 +39,7 @@ struct Measurement {
 
 /// Builds each structure and traces the rays through it, options.repeat times after a turn to warm
 /// up; times are medians. Whatever a structure throws is its reason to give up.
-std::vector<Measurement> measure(std::span<const Choice> chosen,
-                                 std::span<const Triangle> triangles, std::span<const Ray> rays,
-                                 const LabOptions& options);
+std::vector<Measurement> measure(std::span<const Choice> chosen, const Geometry& geometry,
+                                 std::span<const Ray> rays, const LabOptions& options);
 
 }  // namespace space

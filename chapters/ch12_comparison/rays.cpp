@@ -16,7 +16,7 @@ namespace space {
 namespace {
 
 // The files' records are the machine's own numbers.
-static_assert(std::endian::native == std::endian::little && sizeof(HitRecord) == 16);
+static_assert(std::endian::native == std::endian::little);
 
 /// Cosine-distributed about the unit normal (Malley's method: a point of the unit disc, lifted to
 /// the hemisphere). The disc is sampled by rejection: no sine or cosine, whose last bits differ
@@ -61,13 +61,25 @@ std::vector<Ray> read_rays(const std::filesystem::path& file) {
     return rays;
 }
 
+template <class Number>
 std::string hits_bytes(std::span<const HitRecord> hits) {
-    return {reinterpret_cast<const char*>(hits.data()), hits.size_bytes()};
+    std::string bytes;
+    bytes.reserve(hits.size() * (3 * sizeof(float) + sizeof(Number)));
+    for (const auto& [t, u, v, triangle] : hits) {
+        const std::array place{t, u, v};
+        // no_triangle and some_triangle keep their meaning: the two largest numbers.
+        const auto number = static_cast<Number>(triangle);
+        bytes.append(reinterpret_cast<const char*>(place.data()), sizeof place);
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    }
+    return bytes;
 }
+template std::string hits_bytes<std::uint32_t>(std::span<const HitRecord>);
+template std::string hits_bytes<std::uint64_t>(std::span<const HitRecord>);
 
-std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<const Ray> rays,
-                              std::span<const HitRecord> hits, std::size_t count,
-                              std::uint64_t seed) {
+std::vector<Ray> diffuse_rays(const std::function<Triangle(std::uint64_t)>& triangle_at,
+                              std::span<const Ray> rays, std::span<const HitRecord> hits,
+                              std::size_t count, std::uint64_t seed) {
     std::vector<std::size_t> starts;
     for (std::size_t i = 0; i < hits.size(); ++i)
         if (hits[i].is_hit()) starts.push_back(i);
@@ -77,10 +89,10 @@ std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<con
     Pcg32 random(seed);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t start = starts[i * starts.size() / count];
-        const auto& [t, u, v, face] = hits[start];
-        const Triangle& triangle = triangles[face];
+        const auto& [t, u, v, number] = hits[start];
+        const Triangle triangle = triangle_at(number);
         const Double3 n = normal_towards(triangle, rays[start]);
-        const Double3 point = hit_point(triangle, {.t = t, .triangle = face, .u = u, .v = v});
+        const Double3 point = hit_point(triangle, {.t = t, .u = u, .v = v});
         diffuse.push_back({.origin = shadow_origin(triangle, point, n),
                            .direction = cosine_direction(n, random)});
     }

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,16 +17,18 @@
 
 namespace space {
 
-/// One record of a hits file: float32 t, u, v and a uint32 triangle, little-endian.
+/// The answer to a ray. Triangles of instances are counted in 64 bits.
 struct HitRecord {
     float t, u, v;
-    std::uint32_t triangle;
+    std::uint64_t triangle;
 
-    static constexpr std::uint32_t no_triangle = 0xFFFFFFFF;  ///< a miss, whose t is infinity
-    static constexpr std::uint32_t some_triangle =
-        0xFFFFFFFE;  ///< a hit that is not told: the query was `any`
+    static constexpr std::uint64_t no_triangle = ~std::uint64_t{0};  ///< a miss; t is infinity
+    static constexpr std::uint64_t some_triangle =
+        no_triangle - 1;  ///< a hit that is not told: the query was `any`
 
-    static HitRecord closest(const std::optional<Hit>& hit) {
+    /// Of a Hit, or of another hit with t, u, v and triangle.
+    template <class AnyHit = Hit>
+    static HitRecord closest(const std::optional<AnyHit>& hit) {
         return hit ? HitRecord{hit->t, hit->u, hit->v, hit->triangle}
                    : HitRecord{infinity, 0.0f, 0.0f, no_triangle};
     }
@@ -36,12 +39,14 @@ struct HitRecord {
     bool is_hit() const { return triangle != no_triangle; }
     /// The same bits: NaN is NaN.
     bool operator==(const HitRecord& other) const {
-        using Words = std::array<std::uint32_t, 4>;
-        return std::bit_cast<Words>(*this) == std::bit_cast<Words>(other);
+        using Words = std::array<std::uint32_t, 3>;
+        return std::bit_cast<Words>(std::array{t, u, v}) ==
+                   std::bit_cast<Words>(std::array{other.t, other.u, other.v}) &&
+               triangle == other.triangle;
     }
 };
 
-/// More rays than this (3 GB with their hits) are refused.
+/// More rays than this (4 GB with their hits) are refused.
 inline constexpr std::size_t max_rays = std::size_t{1} << 26;
 
 /// Reads records of eight little-endian float32: ox oy oz tmin dx dy dz tmax. The numbers are taken
@@ -50,14 +55,16 @@ inline constexpr std::size_t max_rays = std::size_t{1} << 26;
 /// records
 std::vector<Ray> read_rays(const std::filesystem::path& file);
 
-/// The bytes of a hits file.
+/// The bytes of a hits file: for each hit float32 t, u, v and the triangle as a Number, a uint32
+/// for a mesh, a uint64 for instances; little-endian.
+template <class Number>
 std::string hits_bytes(std::span<const HitRecord> hits);
 
 /// `count` rays that leave the surface where the given rays hit it, spread evenly over the hits in
 /// their order, each cosine-distributed about the normal on the side that its ray came from. None
 /// where there is no hit.
-std::vector<Ray> diffuse_rays(std::span<const Triangle> triangles, std::span<const Ray> rays,
-                              std::span<const HitRecord> hits, std::size_t count,
-                              std::uint64_t seed);
+std::vector<Ray> diffuse_rays(const std::function<Triangle(std::uint64_t)>& triangle_at,
+                              std::span<const Ray> rays, std::span<const HitRecord> hits,
+                              std::size_t count, std::uint64_t seed);
 
 }  // namespace space

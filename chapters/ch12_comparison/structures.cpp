@@ -27,6 +27,9 @@ std::vector<Structure> ch03_structures();
 std::vector<Structure> ch04_structures();
 std::vector<Structure> ch05_structures();
 std::vector<Structure> ch06_structures();
+std::vector<Structure> ch07_structures();
+std::vector<Structure> ch08_structures();
+std::vector<Structure> ch09_structures();
 
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all = joined({
@@ -35,6 +38,9 @@ const std::vector<Structure>& structures() {
         {"chapter 4", ch04_structures()},
         {"chapter 5", ch05_structures()},
         {"chapter 6", ch06_structures()},
+        {"chapter 7", ch07_structures()},
+        {"chapter 8", ch08_structures()},
+        {"chapter 9", ch09_structures()},
     });
     return all;
 }

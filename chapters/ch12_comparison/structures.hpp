@@ -4,6 +4,7 @@
 /// for an indirect call.
 #pragma once
 
+#include "chapters/ch09_instancing_and_motion/scene_graph.hpp"
 #include "chapters/ch12_comparison/rays.hpp"
 #include "common/accelerator.hpp"
 #include "common/parallel.hpp"
@@ -16,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace space {
@@ -55,11 +57,27 @@ struct BuildOptions {
     Limits limits = {};
 };
 
-/// A structure with one of the triangle tests. build throws where it gives up.
+/// What rays are traced through: triangles; or a scene graph, and its triangles where somebody
+/// wants them flattened.
+struct Geometry {
+    std::span<const Triangle> triangles;
+    const SceneGraph* graph = nullptr;
+};
+
+/// A structure with one of the triangle tests. Builders throw where they give up.
 struct StructureVariant {
     std::string_view triangle_test, about_test;
     std::function<BuiltStructure(std::span<const Triangle> triangles, const BuildOptions& options)>
-        build;
+        build_from_triangles;
+    /// Of those that know instances.
+    std::function<BuiltStructure(const SceneGraph& graph, const BuildOptions& options)>
+        build_from_graph = {};
+
+    BuiltStructure build(const Geometry& geometry, const BuildOptions& options) const {
+        return geometry.graph && build_from_graph
+                   ? build_from_graph(*geometry.graph, options)
+                   : build_from_triangles(geometry.triangles, options);
+    }
 };
 
 /// An entry of the lab, in the variants that can be asked for.
@@ -84,7 +102,8 @@ const std::vector<Structure>& structures();
 
 // [batch]
 /// Answers the query for each ray of the batch; the answers do not depend on the number of threads.
-template <class Counts, Accelerator A>
+/// A has closest_hit and any_hit, as an Accelerator has; its hits may have other numbers.
+template <class Counts, class A>
 Counts trace(const A& accelerator, const Batch& batch) {
     // Rays that a thread takes at a time: many enough to hide the taking, few enough to share out a
     // short batch.
@@ -114,6 +133,17 @@ Counts trace(const A& accelerator, const Batch& batch) {
 }
 // [batch]
 
+/// A structure that stands, without its type.
+template <class A>
+BuiltStructure erased(A accelerator, unsigned build_threads = 1) {
+    const auto structure = std::make_shared<const A>(std::move(accelerator));
+    return {.shape = [structure] { return structure->shape(); },
+            .trace = [structure](const Batch& batch) { trace<NoCounts>(*structure, batch); },
+            .count = [structure](
+                         const Batch& batch) { return trace<TraversalCounts>(*structure, batch); },
+            .build_threads = build_threads};
+}
+
 /// Builds an A; the number of threads matters to a Config that has a field `threads`.
 template <Accelerator A>
 BuiltStructure build_configured(std::span<const Triangle> triangles, const BuildOptions& options,
@@ -121,12 +151,7 @@ BuiltStructure build_configured(std::span<const Triangle> triangles, const Build
     unsigned build_threads = 1;
     if constexpr (requires { config.threads = options.threads; })
         config.threads = build_threads = options.threads;
-    const auto structure = std::make_shared<const A>(A::build(triangles, config));
-    return {.shape = [structure] { return structure->shape(); },
-            .trace = [structure](const Batch& batch) { trace<NoCounts>(*structure, batch); },
-            .count = [structure](
-                         const Batch& batch) { return trace<TraversalCounts>(*structure, batch); },
-            .build_threads = build_threads};
+    return erased(A::build(triangles, config), build_threads);
 }
 
 /// The same with the default Config.

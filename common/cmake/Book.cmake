@@ -14,13 +14,18 @@ if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LE
    (CMAKE_CXX_COMPILER_ID STREQUAL Clang AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15))
     set(errors -Werror)
 endif()
+set(shadow_in_unity -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 set(guesses -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
 add_library(book_flags INTERFACE)
 target_compile_features(book_flags INTERFACE cxx_std_20)
 target_compile_options(book_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                            # one file's name may be another's parameter
+                                            "$<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:${shadow_in_unity}>"
                                             $<$<NOT:$<BOOL:$<TARGET_PROPERTY:BOOK_READERS_OWN>>>:${errors}>
                                             "$<$<CXX_COMPILER_ID:GNU>:${guesses}>"
-                                            -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
+                                            -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+                                            # GCC looks through all precompiled headers each time it collects garbage
+                                            $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 target_include_directories(book_flags INTERFACE ${PROJECT_SOURCE_DIR})
 if(BOOK_SANITIZE)
     # Tests take smaller sizes where BOOK_SANITIZED is defined (tests/catch.hpp). No look at each pointer before its use,
@@ -49,6 +54,16 @@ function(book_shares_headers)
     foreach(target IN LISTS ARGN)
         target_precompile_headers(${target} REUSE_FROM book_headers)
     endforeach()
+endfunction()
+
+# book_compiles_in_batches(target [file that stays alone ...])
+# Six files in one: what they include is read once, and the templates that they share are made once. No two files of a
+# room may define the same name then; that each includes what it uses is seen by house.includes_are_whole.
+function(book_compiles_in_batches target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    if(ARGN)
+        set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
 endfunction()
 
 # book_built("what")  book_left_out("what" "why")
@@ -133,6 +148,7 @@ function(add_chapter)
         add_library(${short}_measured STATIC ${measured})
         target_link_libraries(${short}_measured PUBLIC ${libraries} PRIVATE book_flags)
         book_shares_headers(${short}_measured)
+        book_compiles_in_batches(${short}_measured)
         set(libraries ${short}_measured)
     endif()
     set_property(GLOBAL PROPERTY BOOK_${chapter}_LIBRARIES ${libraries})
@@ -140,7 +156,9 @@ function(add_chapter)
         book_left_out("chapter ${chapter}" "it has no program yet")
         return()
     endif()
-    add_executable(${chapter} ${dir}/main.cpp ${figures} ${CMAKE_CURRENT_BINARY_DIR}/figure_register.cpp)
+    set(register ${CMAKE_CURRENT_BINARY_DIR}/figure_register.cpp)
+    add_executable(${chapter} ${dir}/main.cpp ${figures} ${register})
+    book_compiles_in_batches(${chapter} ${dir}/main.cpp ${register})
     target_link_libraries(${chapter} PRIVATE ${libraries} book_flags)
     target_include_directories(${chapter} PRIVATE ${PROJECT_BINARY_DIR}/register)
     target_compile_options(${chapter} PRIVATE -Wmissing-declarations)  # finds a figure without an add_figure line
@@ -180,10 +198,14 @@ const space::Chapter space::this_chapter{\"${chapter}\", {}};
     endif()
     file(GLOB expected CONFIGURE_DEPENDS ${dir}/measured/expected_small.txt)  # once it is there, the next build sees it
     if(expected)
-        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tested}>
+        set(threads "1 3")
+        if(BOOK_SANITIZE)  # memory and threads; that their number doesn't matter is seen elsewhere
+            set(threads 3)
+        endif()
+        add_test(NAME ${short}.small COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tested}> -D THREADS=${threads}
                  -D EXPECTED=${dir}/measured/expected_small.txt -D OUT=${PROJECT_BINARY_DIR}/small/${chapter}
                  -P ${PROJECT_SOURCE_DIR}/tests/house/compare_small.cmake)
-        set_tests_properties(${short}.small PROPERTIES LABELS chapter TIMEOUT 300)
+        set_tests_properties(${short}.small PROPERTIES LABELS chapter TIMEOUT 300 FIXTURES_SETUP small_runs)
     endif()
     if(measured)  # it writes results
         add_test(NAME ${short}.out_is_checked_first COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${tested}>
@@ -286,15 +308,16 @@ else()
     set(BOOK_CATCH_ARGUMENTS)
 endif()
 
-# As BOOK_HEADERS, with Catch2's. Under sanitizers the optimiser takes longer over tests and checks than it saves (bsp_test.cpp: 15 s for 6 s).
-set(unoptimised)
-if(BOOK_SANITIZE)
-    set(unoptimised -O0)
+# As BOOK_HEADERS, with Catch2's. Tests and checks run once: -O2 would take a third more of the compiler's time than -O1
+# and save none of theirs; under sanitizers the optimiser as such takes longer than it saves. The later of two -O wins.
+set(test_options -O1)
+if(BOOK_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL Debug)
+    set(test_options -O0)
 endif()
 if(TARGET book_catch_main)
     add_library(book_test_headers OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
     target_link_libraries(book_test_headers PRIVATE book_catch_main book_common book_flags)
-    target_compile_options(book_test_headers PRIVATE ${unoptimised})
+    target_compile_options(book_test_headers PRIVATE ${test_options})
     target_precompile_headers(book_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch.hpp ${BOOK_HEADERS})
 endif()
 
@@ -302,7 +325,7 @@ endif()
 # For a test program that links everything else already.
 function(book_uses_catch target)
     target_link_libraries(${target} PRIVATE book_catch_main)
-    target_compile_options(${target} PRIVATE ${unoptimised})
+    target_compile_options(${target} PRIVATE ${test_options})
     get_target_property(libraries ${target} LINK_LIBRARIES)
     if("CGAL::CGAL" IN_LIST libraries)
         return()  # its flag -frounding-math wants headers of its own

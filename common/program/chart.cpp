@@ -1,7 +1,9 @@
 #include "common/program/chart.hpp"
 
+#include "common/measure.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
+#include "common/program/report.hpp"
 #include "common/program/results.hpp"
 #include "common/program/svg_colors.hpp"
 #include "common/program/temporary.hpp"
@@ -88,7 +90,8 @@ struct Axis {
 
 /// 25000 -> "25 K", where the axis reaches 10,000 or more.
 std::string tick_text(double value, double largest) {
-    constexpr std::array<std::pair<double, char>, 3> units{{{1e9, 'G'}, {1e6, 'M'}, {1e3, 'K'}}};
+    constexpr std::array<std::pair<double, char>, 4> units{
+        {{1e12, 'T'}, {1e9, 'G'}, {1e6, 'M'}, {1e3, 'K'}}};
     if (largest >= 1e4)
         for (const auto& [unit, letter] : units)
             if (value >= unit) return fmt::format("{:g} {}", value / unit, letter);
@@ -111,6 +114,10 @@ Axis log_axis(double least, double most) {
             }
         if (axis.ticks.size() >= 3) break;
     }
+    if (axis.ticks.size() > 8)  // their names would run into each other
+        std::erase_if(axis.ticks, [](const Tick& tick) {
+            return std::lround(std::log10(tick.value)) % 3 != 0;
+        });
     return axis;
 }
 
@@ -245,7 +252,8 @@ class Script {
             y_.high);
         if (bars()) {
             for (std::size_t i = 0; i < chart_.categories.size(); ++i)
-                label(chart_.categories[i], x_at(static_cast<double>(i)), bottom_ + 22, "center",
+                label(chart_.categories[i], x_at(static_cast<double>(i)),
+                      bottom_ + 22 + (i % 2 == 1 && categories_meet() ? 18 : 0), "center",
                       Ink::ink);
             add("unset xtics");
         } else {
@@ -376,6 +384,14 @@ class Script {
         }
     }
 
+    /// Whether names below the bars need two rows.
+    bool categories_meet() const {
+        const double width = (right_ - left_) / static_cast<double>(chart_.categories.size());
+        return std::ranges::any_of(chart_.categories, [&](const std::string& category) {
+            return character_width * static_cast<double>(category.size()) > width;
+        });
+    }
+
     /// Where the bars of series s stand beside the middle of their category, and how wide they are.
     double bar_width() const { return 0.7 / static_cast<double>(chart_.series.size()); }
     double offset(std::size_t s) const {
@@ -487,6 +503,12 @@ std::string restyled(std::string svg, const Chart& chart) {
 }
 
 }  // namespace
+
+Series with_slope(Series series) {
+    if (series.x.size() > 1)
+        series.note = fmt::format("slope {}", fixed(log_log_slope(series.x, series.y), 2));
+    return series;
+}
 
 std::string chart_csv(const Chart& chart) {
     const bool bars = chart.kind == ChartKind::bars;

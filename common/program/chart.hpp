@@ -5,7 +5,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace space {
@@ -17,6 +20,19 @@ struct Series {
     std::vector<std::string> labels = {};  ///< of single points; may be empty
     std::string note = {};                 ///< a second line under the name, such as "slope 1.02"
 };
+
+/// A point for each item, at x(item) and y(item).
+template <class Items, class X, class Y>
+Series series_along(std::string name, Items&& items, const X& x, const Y& y) {
+    Series series{.name = std::move(name), .x = {}, .y = {}};
+    for (const auto& item : items) {
+        series.x.push_back(static_cast<double>(std::invoke(x, item)));
+        series.y.push_back(static_cast<double>(std::invoke(y, item)));
+    }
+    return series;
+}
+/// The series with a note of the least-squares slope of log y over log x, if it has two points.
+Series with_slope(Series series);
 
 /// What stands for a value: a corner of a line, a dot, or a bar.
 enum class ChartKind { lines, points, bars };
@@ -31,6 +47,14 @@ struct Chart {
     ChartKind kind = ChartKind::lines;
     std::vector<Series> series;
     std::vector<std::string> categories = {};  ///< names along x for bars
+
+    /// A bar for each category, of the height that `value` gives for its name.
+    template <class Value>
+    void add_bars(std::string_view name, const Value& value) {
+        Series bars{.name = std::string(name), .x = {}, .y = {}};
+        for (const std::string& category : categories) bars.y.push_back(value(category));
+        series.push_back(std::move(bars));
+    }
 };
 
 /// Writes ID.csv and ID.svg into `out`. Without gnuplot the CSV alone, and says so on stderr.

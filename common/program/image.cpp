@@ -34,6 +34,13 @@ std::vector<std::uint8_t> srgb_bytes(const Image& image) {
     return bytes;
 }
 
+std::uint64_t other_pixels(const Image& image, const Image& other) {
+    std::uint64_t others = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) others += image.at(x, y) != other.at(x, y);
+    return others;
+}
+
 Image side_by_side(const std::vector<Image>& images, int gap) {
     int width = -gap, height = 0;
     for (const Image& image : images) {

@@ -38,6 +38,9 @@ std::uint8_t srgb_byte(float linear);
 /// The pixels' sRGB bytes, row by row: what a PNG file holds.
 std::vector<std::uint8_t> srgb_bytes(const Image& image);
 
+/// How many pixels of two pictures of one size are not the same.
+std::uint64_t other_pixels(const Image& image, const Image& other);
+
 /// Several pictures of the same height in a row, `gap` white pixels between them.
 Image side_by_side(const std::vector<Image>& images, int gap = 8);
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace space {
@@ -75,6 +76,12 @@ void Table::print() const {
     fmt::print("{}", text());
 }
 
+std::vector<std::string> TimedTable::joined(std::vector<std::string> counts,
+                                            const std::vector<std::string>& times) const {
+    if (shown_) counts.insert(counts.end(), times.begin(), times.end());
+    return counts;
+}
+
 void print_remarks(std::string_view program, std::span<const std::string> remarks) {
     for (const std::string& remark : remarks) fmt::print(stderr, "{}: note: {}\n", program, remark);
 }
@@ -100,6 +107,11 @@ std::string with_commas(std::uint64_t number) {
     std::string digits = std::to_string(number);
     for (std::size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, 1, ',');
     return digits;
+}
+
+std::string fixed(double value, int digits) {
+    if (std::abs(value) < 0.5 * std::pow(10.0, -digits)) value = 0.0;
+    return fmt::format("{:.{}f}", value, digits);
 }
 
 std::string counted(std::uint64_t number, std::string_view noun) {

@@ -27,6 +27,24 @@ class Table {
     std::vector<std::vector<std::string>> rows_;
 };
 
+/// A table whose last columns, the times, are there only where times are shown.
+class TimedTable {
+  public:
+    TimedTable(std::vector<std::string> counts, const std::vector<std::string>& times, bool shown)
+        : shown_(shown), table_(joined(std::move(counts), times)) {}
+    void row(std::vector<std::string> counts, const std::vector<std::string>& times) {
+        table_.row(joined(std::move(counts), times));
+    }
+    const Table& table() const { return table_; }
+
+  private:
+    std::vector<std::string> joined(std::vector<std::string> counts,
+                                    const std::vector<std::string>& times) const;
+
+    bool shown_;
+    Table table_;
+};
+
 /// What a mesh's reader had to remark, a line each, to stderr: what is printed may be for a pipe.
 void print_remarks(std::string_view program, std::span<const std::string> remarks);
 
@@ -35,6 +53,8 @@ void print_heading(const std::string& text);
 std::string wrapped(std::string_view text, std::size_t indent);
 /// 1234567 -> "1,234,567".
 std::string with_commas(std::uint64_t number);
+/// With so many digits after the point, and never "-0.0".
+std::string fixed(double value, int digits);
 /// "1 ray", "1,234 rays".
 std::string counted(std::uint64_t number, std::string_view noun);
 

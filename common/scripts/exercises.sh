@@ -6,9 +6,9 @@ find_exercise() {
     local id=$1 pattern
     [[ $id =~ ^([0-9]{1,2})\.([0-9]{1,2})$ ]] || die 2 "exercise $id: give chapter and number, such as 1.2"
     printf -v pattern 'ch%02d_*/exercises/ex%02d_*.hpp' "$((10#${BASH_REMATCH[1]}))" "$((10#${BASH_REMATCH[2]}))"
-    stub=$(cd "$root/chapters" && compgen -G "$pattern" | head -n 1) ||
+    stub=$(cd "$root/chapters" && compgen -G "$pattern") ||
         die 2 "exercise $id: there is none; ./book exercise lists them"
-    stub=$root/chapters/$stub
+    stub=$root/chapters/${stub%%$'\n'*}
     folder=$(dirname "$(dirname "$stub")")
     exercise=$(basename "$folder")
     exercise=${exercise%%_*}.$(basename "$stub" .hpp)
@@ -106,7 +106,7 @@ check_exercise() {
     fi
     run_check "$root/build/release/exercises/$exercise.exercise" || result=$?
     touch "$log/exercise.txt" "$log/exercise_own.txt"
-    head -c 2000 "$log/exercise_own.txt" | head -n 20  # what the answer prints
+    head -c 2000 "$log/exercise_own.txt" | sed -n 1,20p  # what the answer prints
     if ((result == 0)) && grep -q '^All tests passed (' "$log/exercise.txt"; then
         echo "$(fingerprint "$stub") solved" >"$state"
         printf 'Exercise %s is solved. ./book exercise solution %s shows ours, to compare.\n' "$1" "$1"

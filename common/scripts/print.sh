@@ -16,7 +16,7 @@ print_page() {
         >"$log/print.txt" 2>&1 || { cat "$log/print.txt" >&2; die 1 "printing $1 failed"; }
     [[ -s $2 ]] || { cat "$log/print.txt" >&2; die 1 "printing $1 failed"; }
     # Formulas are set by a script: was it done before the page was printed?
-    ! pdftotext "$2" - | grep -qF '\(' || die 1 "$1 was printed with raw formulas"
+    [[ $(pdftotext "$2" -) != *'\('* ]] || die 1 "$1 was printed with raw formulas"
 }
 
 command_print() {

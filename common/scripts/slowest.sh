@@ -9,12 +9,12 @@ slowest_compiles() {
             name = $4
             sub(/CMakeFiles\/[^\/]*\.dir\//, "", name)
             printf "%8.1f s  %s\n", ($2 - $1) / 1000, name
-        }' "$root/build/$1/.ninja_log" | sort -rn | head -n 10
+        }' "$root/build/$1/.ninja_log" | sort -rn | sed -n 1,10p
 }
 
 # slowest_tests FILE: ten of those whose ends FILE tells, which is what ctest printed
 slowest_tests() {
-    sed -nE 's|^ *[0-9]+/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*|\2 \1|p' "$1" | sort -rn | head -n 10 |
+    sed -nE 's|^ *[0-9]+/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*|\2 \1|p' "$1" | sort -rn | sed -n 1,10p |
         while read -r seconds name; do printf '%8.1f s  %s\n' "$seconds" "$name"; done
 }
 

@@ -533,7 +533,7 @@ TEST_CASE(
         "naive, filtered exact",
         [](std::span<const Triangle> triangles) { return Naive<FilteredExact>::build(triangles); },
         options);
-    CHECK(report.exact.examined() > sized(1'000, 300));
+    CHECK(report.exact.examined() > sized(1'000, 200));
     CHECK(report.exact.wrong() == 0);
     CHECK(report.exact.rounded_t == 0);
     CHECK(report.exact[Agreement::interval_end] == 0);

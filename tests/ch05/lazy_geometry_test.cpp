@@ -115,11 +115,12 @@ Heightfield field(std::uint32_t cells, std::uint32_t patch, std::uint64_t seed =
 
 template <PatchSource Source>
 void require_true_bounds(const Source& source) {
-    for (std::uint32_t patch = 0; patch < source.patches(); ++patch)
-        for (const Triangle& triangle : source.triangles(patch)) {
-            CAPTURE(patch);
-            REQUIRE(source.bounds(patch).contains(bounds(triangle)));
-        }
+    for (std::uint32_t patch = 0; patch < source.patches(); ++patch) {
+        Aabb box;
+        for (const Triangle& triangle : source.triangles(patch)) box.extend(bounds(triangle));
+        CAPTURE(patch);
+        REQUIRE(source.bounds(patch).contains(box));
+    }
 }
 
 }  // namespace
@@ -168,7 +169,7 @@ TEST_CASE("the cells of a field are its patches', row by row, two triangles each
 }
 
 TEST_CASE("the bounds of a field's patch hold its triangles, and are little wider") {
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= sized(20u, 4u); ++seed) {
         const Heightfield source = field(128, 16, seed);
         require_true_bounds(source);
         for (std::uint32_t patch = 0; patch < source.patches(); ++patch) {
@@ -312,7 +313,7 @@ TEST_CASE("a patch that only shares a cell with the ray is not made") {
             if (!lazy.is_made(patch)) continue;
             ++made;
             CAPTURE(patch);
-            REQUIRE(part_in(source.bounds(patch), ray, KdRay<3>(ray)));
+            REQUIRE(part_in(source.bounds(patch), KdRay<3>(ray), RayPart::all_of(ray)));
         }
     }
     CHECK(made == 272);  // of 300 patches by each of 100 rays; more if hits did not shorten rays

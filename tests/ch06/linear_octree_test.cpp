@@ -5,6 +5,9 @@
 #include "tests/suite/accelerator_suite.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace space {
@@ -51,6 +54,20 @@ TEST_CASE("each triangle is in one leaf, and each box around all that is below i
             box.extend(bounds(triangles[tree.polygons[place]]));
         REQUIRE(box == tree.boxes[i]);
     }
+}
+
+TEST_CASE("triangles that are not finite are in no box") {
+    const auto triangles = scattered(50, 0.1f);
+    const Aabb box = BoxedOrthtree<3>::build(triangles).boxes.front();
+    for (const float bad : {std::nanf(""), infinity, -infinity})
+        for (int axis = 0; axis < 3; ++axis) {
+            auto all = triangles;
+            all.push_back(triangles.front());
+            all.back().b[axis] = bad;
+            CAPTURE(bad, axis);
+            CHECK(BoxedOrthtree<3>::build(all).boxes.front() == box);
+            CHECK(BoxedOrthtree<3>::build(std::span(all).last(1)).boxes.front().is_empty());
+        }
 }
 
 TEST_CASE("without chains there are fewer than two nodes a triangle, and references are as many") {

@@ -3,8 +3,10 @@
 
 #include "tests/suite/accelerator_suite.hpp"
 
+#include <cmath>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace space {
 namespace {
@@ -19,6 +21,30 @@ void check_suite(std::string_view name, const OctreeConfig& config) {
 }
 
 }  // namespace
+
+TEST_CASE("triangles that are not finite are left out: the tree is that of the others") {
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 20; ++i) {
+        const Point3 corner(float(i % 5), float(i % 4), float(i % 3));
+        triangles.push_back({corner, corner + Vector3(1, 0, 0), corner + Vector3(0, 1, 1)});
+    }
+    for (const float looseness : {1.0f, 2.0f})
+        for (const float bad : {std::nanf(""), infinity, -infinity})
+            for (int axis = 0; axis < 3; ++axis) {
+                OctreeConfig config{.looseness = looseness};
+                if (looseness != 1.0f) config.straddlers = Straddlers::keep;
+                const auto without = Octree<>::build(triangles, config);
+                auto all = triangles;
+                all.push_back(triangles.front());
+                all.back().b[axis] = bad;
+                const auto with = Octree<>::build(all, config);
+                CAPTURE(looseness, bad, axis);
+                CHECK(with.nodes().bounds == without.nodes().bounds);
+                CHECK(with.nodes().nodes == without.nodes().nodes);
+                CHECK(with.nodes().references == without.nodes().references);
+                CHECK(Octree<>::build(std::span(all).last(1), config).nodes().empty());
+            }
+}
 
 TEST_CASE("the suite: octree") {
     run_suite<Octree>("octree");

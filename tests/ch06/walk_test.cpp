@@ -1,6 +1,7 @@
 // Rays on which a walk could lose a hit: at faces, edges and corners of cells, within them, from
 // them, along diagonals, far away, huge and tiny. Every answer must be exact arithmetic's.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch06_quadtrees_and_octrees/linear_octree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/octree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/pointer_orthtree.hpp"
 #include "common/random.hpp"
@@ -27,11 +28,7 @@ namespace {
 using Straddlers = OctreeConfig::Straddlers;
 using Walk = OctreeConfig::Walk;
 
-#ifdef BOOK_SANITIZED
-constexpr int rays_each = 200, oracle_rays = 20, samples = 2'000;
-#else
-constexpr int rays_each = 6'000, oracle_rays = 200, samples = 300'000;
-#endif
+constexpr int rays_each = sized(6'000, 200), oracle_rays = sized(200, 20);
 
 struct Variant {
     const char* name;
@@ -45,18 +42,18 @@ std::vector<Variant> variants() {
 }
 
 /// Rays that are answered otherwise than naively; some are held against the exact oracle, too.
-void check_scene(const TestScene& scene, const Variant& variant, int rays, int by_oracle) {
-    const auto octree = Octree<>::build(scene.triangles, variant.config);
+template <Accelerator A>
+void check_scene(const TestScene& scene, const char* name, const A& tree, CellRays maker, int rays,
+                 int by_oracle) {
     const auto naive = Naive<FilteredExact>::build(scene.triangles);
     const ExactOracle oracle = ExactOracle::build(scene.triangles);
-    CellRays maker(octree.nodes(), scene.triangles, 17);
-    INFO(scene.name << ", " << variant.name);
+    INFO(scene.name << ", " << name);
     for (int i = 0; i < rays; ++i) {
         auto [kind, ray] = maker.next();
         if (ray.direction == Vector3(0.0f)) continue;
         if (i % 7 == 0) ray.tmin = -infinity;
-        const auto expected = closest_hit(naive, ray), got = closest_hit(octree, ray);
-        const bool any = any_hit(octree, ray);
+        const auto expected = closest_hit(naive, ray), got = closest_hit(tree, ray);
+        const bool any = any_hit(tree, ray);
         if (got != expected || any != expected.has_value()) {
             CAPTURE(kind, i, expected.has_value() ? expected->t : -1.0f,
                     got.has_value() ? got->t : -1.0f);
@@ -68,20 +65,9 @@ void check_scene(const TestScene& scene, const Variant& variant, int rays, int b
     }
 }
 
-std::vector<TestScene> extreme_scenes() {
+std::vector<TestScene> walked_scenes() {
     using namespace scenes;
-    std::vector<TestScene> all;
-    const auto scaled = [&](std::string name, float scale, const Vector3& shift) {
-        all.push_back({std::move(name), mapped(soup(60, 0.4f, 31), [&](const Point3& p) {
-                           return p * scale + shift;
-                       })});
-    };
-    scaled("largest floats", 2e38f, Vector3(-1e38f));
-    scaled("denormal", 1e-43f, Vector3(0.0f));
-    scaled("far away on one axis", 1.0f, Vector3(1e6f, 0.0f, 0.0f));
-    all.push_back({"flat and far away", mapped(soup(60, 0.4f, 33), [](const Point3& p) {
-                       return Point3(1e6f, p.y * 1e-6f, p.z * 1e-6f);
-                   })});
+    std::vector<TestScene> all = extreme_scenes();
     // Whole numbers in a cube of 8: every triangle lies in planes of cells, or ends there.
     all.push_back({"in cells' planes", sheet(8, 8, [](int i, int j) { return Point3(4, i, j); })});
     for (const Triangle& t : sheet(8, 8, [](int i, int j) { return Point3(i, 4, j); }))
@@ -92,10 +78,19 @@ std::vector<TestScene> extreme_scenes() {
 }
 
 void check_all(int rays, int by_oracle) {
-    std::vector<TestScene> all = extreme_scenes();
+    std::vector<TestScene> all = walked_scenes();
     for (TestScene& scene : adversarial_scenes()) all.push_back(std::move(scene));
-    for (const TestScene& scene : all)
-        for (const Variant& variant : variants()) check_scene(scene, variant, rays, by_oracle);
+    for (const TestScene& scene : all) {
+        const auto aimed = [&](const Octree<>& octree) {
+            return CellRays(octree.nodes(), scene.triangles, 17);
+        };
+        for (const Variant& variant : variants()) {
+            const auto octree = Octree<>::build(scene.triangles, variant.config);
+            check_scene(scene, variant.name, octree, aimed(octree), rays, by_oracle);
+        }
+        check_scene(scene, "linear", LinearOctree<>::build(scene.triangles),
+                    aimed(Octree<>::build(scene.triangles)), rays, by_oracle);
+    }
 }
 
 /// What an observer is told of a walk.
@@ -215,19 +210,23 @@ TEST_CASE("a hit ends the walk: no cell that begins beyond it is visited") {
 }
 
 TEST_CASE("no ray allocates memory") {
-    for (const Variant& variant : variants()) {
-        const auto triangles = scenes::soup(500, 0.1f, 24);
-        const auto octree = Octree<>::build(triangles, variant.config);
-        CellRays maker(octree.nodes(), triangles, 3);
+    const auto triangles = scenes::soup(500, 0.1f, 24);
+    const auto check = [&](const auto& tree, CellRays maker) {
         std::vector<Ray> rays;
         for (int i = 0; i < 1'000; ++i) rays.push_back(maker.next().ray);
         std::size_t hits = 0;
         test::allocations_left = 0;  // the next one throws
-        for (const Ray& ray : rays) hits += closest_hit(octree, ray).has_value();
-        for (const Ray& ray : rays) hits += any_hit(octree, ray);
+        for (const Ray& ray : rays) hits += closest_hit(tree, ray).has_value();
+        for (const Ray& ray : rays) hits += any_hit(tree, ray);
         test::allocations_left = -1;
         CHECK(hits > 500);
+    };
+    for (const Variant& variant : variants()) {
+        const auto octree = Octree<>::build(triangles, variant.config);
+        check(octree, CellRays(octree.nodes(), triangles, 3));
     }
+    const auto aimed_at = OrthtreeBuilder<3>::build(triangles);
+    check(LinearOctree<>::build(triangles), CellRays(aimed_at, triangles, 3));
 }
 
 TEST_CASE(
@@ -240,7 +239,7 @@ TEST_CASE(
         const float sign = random.below(2) != 0 ? 1.0f : -1.0f;
         return sign * std::ldexp(mantissa, exponent);
     };
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < sized(300'000, 2'000); ++i) {
         Ray ray{.origin = Point3(number(8))};
         ray.direction = Vector3(number(8));
         // A plane with up to 53 bits, as deep cells have them.

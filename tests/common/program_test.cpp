@@ -33,6 +33,10 @@ TEST_CASE("an error that a user can cause becomes one line on stderr and its exi
           std::pair(70, std::string("prog: out of memory\n")));
     CHECK(run([](int, char**) -> int { throw std::logic_error("x"); }) ==
           std::pair(70, std::string("prog: internal error: x\n")));
+    CHECK(run([](int, char**) -> int { throw input_error("mesh \"a\nb\033[31m\"\r"); }) ==
+          std::pair(3, std::string("prog: mesh \"a\\x0ab\\x1b[31m\"\\x0d\n")));
+    CHECK(run([](int, char**) -> int { throw usage_error(std::string(1'000'000, 'x')); }) ==
+          std::pair(2, "prog: " + std::string(2000, 'x') + "...\n"));
 }
 
 namespace {

@@ -134,11 +134,11 @@ def look_at_logs(name):
                 fault(name, f"asks the network for {url}")
 
 
-# What sticks out of the window and cannot be scrolled to in a box of its own.
+# What of ELEMENTS sticks out of the window and cannot be scrolled to in a box of its own.
 sticking_out = """
     const width = document.documentElement.clientWidth, wide = [];
     if (document.documentElement.scrollWidth > width) wide.push("the page itself");
-    for (const element of document.querySelectorAll(".contents *, .header *")) {
+    for (const element of ELEMENTS) {
         if (element.getClientRects().length === 0 || element.closest("svg svg, .sm")) continue;
         if (element.getBoundingClientRect().right <= width + 1) continue;
         let box = element.parentElement;
@@ -158,10 +158,13 @@ raw_formulas = r"""
 pale = """
     const numbers = (color) => { const c = color.match(/[\\d.]+/g).map(Number); return [c[0], c[1], c[2], c[3] ?? 1]; };
     const over = (top, under) => [0, 1, 2].map((i) => top[3] * top[i] + (1 - top[3]) * under[i]).concat(1);
+    const backgrounds = new Map([[null, [255, 255, 255, 1]]]);
     const background = (element) => {
-        if (!element) return [255, 255, 255, 1];
-        const own = numbers(getComputedStyle(element).backgroundColor);
-        return own[3] === 1 ? own : over(own, background(element.parentElement));
+        if (!backgrounds.has(element)) {
+            const own = numbers(getComputedStyle(element).backgroundColor);
+            backgrounds.set(element, own[3] === 1 ? own : over(own, background(element.parentElement)));
+        }
+        return backgrounds.get(element);
     };
     const luminance = (color) => color.slice(0, 3).map((c) => c / 255).map((c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
         .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
@@ -195,7 +198,7 @@ formulas = drawings = texts = 0
 
 def look_at_page(name, width, mode):
     global texts
-    for wide in run(sticking_out) if name in book else ():
+    for wide in run(sticking_out.replace("ELEMENTS", "document.querySelectorAll('.contents *, .header *')")) if name in book else ():
         fault(name, f"at {width} px sticks out: {wide}")
     contrasts = run(pale)
     texts += contrasts["measured"]
@@ -227,16 +230,107 @@ def look_at_listings(name):
             fault(name, f"at {width} px {cut} listings are cut")
 
 
+# Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
+# out. Keys move the drawing in view, and no other.
+walk = """
+    const list = document.querySelectorAll("ol.steps")[NUMBER], bar = list.previousElementSibling;
+    const drawing = bar.previousElementSibling, seen = (element) => getComputedStyle(element).visibility === "visible";
+    const sticking = () => {STICKING_OUT};
+    const look = () => ({tells: [...list.children].filter(seen).map((item) => item.textContent),
+            groups: [...drawing.querySelectorAll("[data-first]")].map((group) => group.getAttribute("display") !== "none"),
+            buttons: [...bar.querySelectorAll("button")].map((button) => !button.disabled),
+            count: bar.querySelector("output").textContent,
+            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top, wide: sticking()});
+    const [first, back, forth, last] = bar.querySelectorAll("button");
+    const press = (button) => { button.click(); return look(); }, seconds = [...list.children].slice(1);
+    return {start: look(), next: seconds.map(() => press(forth)), back: seconds.map(() => press(back)).reverse(),
+            last: press(last), first: press(first)};
+    """.replace("STICKING_OUT", sticking_out.replace("ELEMENTS", "list.parentElement.querySelectorAll('*')"))
+state = "const list = document.querySelectorAll('ol.steps')[NUMBER], bar = list.previousElementSibling;" \
+        "return [bar.querySelector('output').textContent, [...list.children].findIndex((e) => getComputedStyle(e).visibility === 'visible')];"
+static = """
+    const list = document.querySelectorAll("ol.steps")[NUMBER], drawing = list.previousElementSibling;
+    return {tells: list.children.length, bar: !!document.querySelector(".step-bar"),
+            shown: [...drawing.querySelectorAll("[data-first]")].map((group) => getComputedStyle(group).display !== "none"),
+            lasts: [...drawing.querySelectorAll("[data-first]")].map((group) => group.dataset.last === undefined)};"""
+to_the_middle = """
+    document.activeElement.blur();
+    document.querySelectorAll("ol.steps")[NUMBER].parentElement.scrollIntoView({block: "center", behavior: "instant"});"""
+steps_walked = 0
+
+
+def drawings_with_steps(name):
+    """Of each: its groups with their first and last steps, and what each step tells."""
+    parts = (site / name).read_text().split('<ol class="steps">')
+    for before, after in zip(parts, parts[1:]):
+        drawing = before[before.rindex("<svg "):]
+        yield ([(int(first), int(last) if last else None)
+                for first, last in re.findall(r'<g data-first="(\d+)"(?: data-last="(\d+)")?', drawing)],
+               [html.unescape(sentence) for sentence in re.findall(r"<li>(.*?)</li>", after.split("</ol>")[0])])
+
+
+def walk_steps(name, width, number, groups, tells):
+    """The drawing of that number on the page that stands, from its first step back to its first."""
+    global steps_walked
+    last = len(tells) - 1
+    script = lambda text: run(text.replace("NUMBER", str(number)))
+    if last < 1 or any(first > last or (end is not None and end < first) for first, end in groups):
+        fault(name, f"a drawing's steps are none: {groups}")
+
+    def look(now, step, how):
+        expected = [first <= step and (end is None or step <= end) for first, end in groups]
+        if now["groups"] != expected:
+            fault(name, f"step {step} by {how} shows other groups than its own")
+        if now["tells"] != [tells[step]]:
+            fault(name, f"step {step} by {how} tells {now['tells']}")
+        if now["buttons"] != [step > 0, step > 0, step < last, step < last] or now["count"] != f"{step + 1} of {last + 1}":
+            fault(name, f"step {step} by {how}: its buttons are {now['buttons']}, {now['count']}")
+        for wide in now["wide"]:
+            fault(name, f"at {width} px, step {step}, sticks out: {wide}")
+
+    walked = script(walk)
+    look(walked["start"], 0, "loading")
+    for step in range(1, last + 1):
+        look(walked["next"][step - 1], step, "Next")
+        look(walked["back"][step - 1], step - 1, "Back")
+        steps_walked += 1
+    look(walked["last"], last, "Last")
+    look(walked["first"], 0, "First")
+    places = [now["height"] for now in [walked["start"], *walked["next"]]]
+    if max(places) - min(places) > 1:
+        fault(name, f"at {width} px the page below jumps from step to step: {sorted(places)}")
+    # By hand: the button Next, then keys.
+    script(to_the_middle)
+    buttons = chromium.find_elements(By.CSS_SELECTOR, ".step-bar")[number].find_elements(By.TAG_NAME, "button")
+    buttons[2].click()
+    run("document.activeElement.blur()")
+    body = chromium.find_element(By.TAG_NAME, "body")
+    for key, step in ((None, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
+        if key:
+            body.send_keys(key)
+        if script(state) != [f"{step + 1} of {last + 1}", step]:
+            fault(name, f"a hand's press shows {script(state)}, not step {step}")
+    counts = run("return [...document.querySelectorAll('.step-bar output')].map((output) => output.textContent[0])")
+    if counts != ["2" if i == number else "1" for i in range(len(counts))]:
+        fault(name, f"keys move another drawing than number {number}, which is in the middle: {counts}")
+    buttons[0].click()
+
+
 for name in book + samples:
     window(390, "dark")
     open_page(name)
     look_at_page(name, 390, "dark")
+    stepped = list(drawings_with_steps(name))
+    for number, drawing in enumerate(stepped):
+        walk_steps(name, 390, number, *drawing)
     if name in book and name.startswith("ch"):
         look_at_paper(name)
     window(1280, "light")  # the page that stands follows, as it does on a desk
     if not wait("document.documentElement.classList.contains('light-mode')", 5):
         fault(name, "does not follow a system that turns light")
     look_at_page(name, 1280, "light")
+    for number, drawing in enumerate(stepped):
+        walk_steps(name, 1280, number, *drawing)
     if name in book and name.startswith("ch"):
         look_at_listings(name)
     for raw in run(raw_formulas):
@@ -246,6 +340,8 @@ for name in book + samples:
     formulas += run("return document.querySelectorAll('.MathJax_SVG svg').length")
     drawings += run("return document.querySelectorAll('svg.book-figure').length")
     look_at_logs(name)
+if "ch03_step_by_step.html" in book and not steps_walked:
+    fault("ch03_step_by_step.html", "has no steps")
 
 # The switch between light and dark: the page and its drawings change, and change back, whatever the system prefers.
 colours = """
@@ -296,102 +392,16 @@ for width in (390, 1280):
     names = run("return [...document.querySelectorAll('.plain-menu a')].filter((a) => a.getClientRects().length).map((a) => a.textContent)")
     if "Exercises" not in names or "Glossary" not in names or "Code" not in names:
         fault("menu", f"without scripts it has {names}")
-chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
-
-# Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
-# out; without scripts, the last step's drawing stands and all sentences. Keys move the drawing in view, and no other.
-walk = """
-    const list = document.querySelectorAll("ol.steps")[NUMBER], bar = list.previousElementSibling;
-    const drawing = bar.previousElementSibling, seen = (element) => getComputedStyle(element).visibility === "visible";
-    const sticking = () => {STICKING_OUT};
-    const look = () => ({tells: [...list.children].filter(seen).map((item) => item.textContent),
-            groups: [...drawing.querySelectorAll("[data-first]")].map((group) => group.getAttribute("display") !== "none"),
-            buttons: [...bar.querySelectorAll("button")].map((button) => !button.disabled),
-            count: bar.querySelector("output").textContent,
-            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top, wide: sticking()});
-    const [first, back, forth, last] = bar.querySelectorAll("button");
-    const press = (button) => { button.click(); return look(); }, seconds = [...list.children].slice(1);
-    return {start: look(), next: seconds.map(() => press(forth)), back: seconds.map(() => press(back)).reverse(),
-            last: press(last), first: press(first)};""".replace("STICKING_OUT", sticking_out)
-state = "const list = document.querySelectorAll('ol.steps')[NUMBER], bar = list.previousElementSibling;" \
-        "return [bar.querySelector('output').textContent, [...list.children].findIndex((e) => getComputedStyle(e).visibility === 'visible')];"
-static = """
-    const list = document.querySelectorAll("ol.steps")[NUMBER], drawing = list.previousElementSibling;
-    return {tells: list.children.length, bar: !!document.querySelector(".step-bar"),
-            shown: [...drawing.querySelectorAll("[data-first]")].map((group) => getComputedStyle(group).display !== "none"),
-            lasts: [...drawing.querySelectorAll("[data-first]")].map((group) => group.dataset.last === undefined)};"""
-to_the_middle = """
-    document.activeElement.blur();
-    document.querySelectorAll("ol.steps")[NUMBER].parentElement.scrollIntoView({block: "center", behavior: "instant"});"""
-steps_walked = 0
-
-
-def walk_steps(name, number, groups, tells):
-    """The drawing of that number on its page: the groups with their first and last steps, and what each step tells."""
-    global steps_walked
-    last = len(tells) - 1
-    script = lambda text: run(text.replace("NUMBER", str(number)))
-    if last < 1 or any(first > last or (end is not None and end < first) for first, end in groups):
-        fault(name, f"a drawing's steps are none: {groups}")
-
-    def look(now, step, how):
-        expected = [first <= step and (end is None or step <= end) for first, end in groups]
-        if now["groups"] != expected:
-            fault(name, f"step {step} by {how} shows other groups than its own")
-        if now["tells"] != [html.unescape(tells[step])]:
-            fault(name, f"step {step} by {how} tells {now['tells']}")
-        if now["buttons"] != [step > 0, step > 0, step < last, step < last] or now["count"] != f"{step + 1} of {last + 1}":
-            fault(name, f"step {step} by {how}: its buttons are {now['buttons']}, {now['count']}")
-        for wide in now["wide"]:
-            fault(name, f"at {width} px, step {step}, sticks out: {wide}")
-
-    for width, mode in ((1280, "light"), (390, "dark")):
-        window(width, mode)
-        open_page(name)
-        walked = script(walk)
-        look(walked["start"], 0, "loading")
-        for step in range(1, last + 1):
-            look(walked["next"][step - 1], step, "Next")
-            look(walked["back"][step - 1], step - 1, "Back")
-            steps_walked += 1
-        look(walked["last"], last, "Last")
-        look(walked["first"], 0, "First")
-        places = [now["height"] for now in [walked["start"], *walked["next"]]]
-        script(to_the_middle)
-        # By hand: the button Next, then keys.
-        chromium.find_elements(By.CSS_SELECTOR, ".step-bar")[number].find_elements(By.TAG_NAME, "button")[2].click()
-        run("document.activeElement.blur()")
-        body = chromium.find_element(By.TAG_NAME, "body")
-        for key, step in ((None, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
-            if key:
-                body.send_keys(key)
-            if script(state) != [f"{step + 1} of {last + 1}", step]:
-                fault(name, f"a hand's press shows {script(state)}, not step {step}")
-        counts = run("return [...document.querySelectorAll('.step-bar output')].map((output) => output.textContent[0])")
-        if counts != ["2" if i == number else "1" for i in range(len(counts))]:
-            fault(name, f"keys move another drawing than number {number}, which is in the middle: {counts}")
-        if max(places) - min(places) > 1:
-            fault(name, f"at {width} px the page below jumps from step to step: {sorted(places)}")
-        look_at_logs(name)
-    chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=True))
-    chromium.get((site / name).as_uri())
-    still = script(static)
-    chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
-    if still["bar"] or still["tells"] != last + 1 or still["shown"] != still["lasts"]:
-        fault(name, f"without scripts its drawing is not the last step's: {still}")
-
-
+# ... and of a drawing with steps the last step stands, with all sentences.
 for name in book:
-    parts = (site / name).read_text().split('<ol class="steps">')
-    for number in range(len(parts) - 1):
-        drawing = parts[number][parts[number].rindex("<svg "):]
-        walk_steps(name, number,
-                   [(int(first), int(last) if last else None)
-                    for first, last in re.findall(r'<g data-first="(\d+)"(?: data-last="(\d+)")?', drawing)],
-                   re.findall(r"<li>(.*?)</li>", parts[number + 1].split("</ol>")[0]))
-if "ch03_step_by_step.html" in book and not steps_walked:
-    fault("ch03_step_by_step.html", "has no steps")
-
+    stepped = list(drawings_with_steps(name))
+    if stepped:
+        chromium.get((site / name).as_uri())
+    for number, (_, tells) in enumerate(stepped):
+        still = run(static.replace("NUMBER", str(number)))
+        if still["bar"] or still["tells"] != len(tells) or still["shown"] != still["lasts"]:
+            fault(name, f"without scripts a drawing is not the last step's: {still}")
+chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
 
 # The search, by keyboard: something is found, and opening it leads to a page that has the word.
 def results():

@@ -77,6 +77,10 @@ TEST_CASE("what no run has measured is an error that names the page, the line an
     CHECK(project.refused("\n\n\\measured{ch04}") ==
           "chapter.dox:3: \\measured{ch04}: there is no figures/measured/ch04_numbers.json");
     CHECK(project.refused("\\num{deepest}").starts_with("chapter.dox:1: \\num{deepest}: expected"));
+    for (const std::string text : {"See \\table{ch03.splitters}", "\\table{ch03.splitters}.",
+                                   "See\n\\table{ch03.splitters}"})
+        CHECK(project.refused(text).find("a paragraph of its own") != std::string::npos);
+    CHECK(project.resolved("a\n\n\\table{ch03.splitters}\n\nb").starts_with("a\n\n| splitter"));
     CHECK(project.refused("\\num{ch04.deepest}").starts_with("chapter.dox:1: "));
 }
 

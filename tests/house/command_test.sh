@@ -42,7 +42,7 @@ ends 2 'chapter 99: there is none' bench 99
 ends 2 'address or thread' test --sanitize
 ends 2 'address or thread' test --sanitize memory
 ends 2 'unknown argument 1' test 1
-ends 2 'exercise 9.9: there is none' exercise check 9.9
+ends 2 'exercise 9.99: there is none' exercise check 9.99
 ends 2 'such as 1.2' exercise check '1.*'
 ends 2 'such as 1.2' exercise hint ''
 ends 2 'give one exercise' exercise check
@@ -51,7 +51,7 @@ ends 2 'there is list' exercise solve 1.1
 ends 2 'takes --shipped and no more' docs 1
 ends 2 'takes --install and no more' doctor 1
 ends 2 'unknown option --all' figures --all
-ends 2 'figure 9.9: there is none; there are: 1.1 ' figures 3.4 9.9
+ends 2 'figure 9.99: there is none; there are: 1.1 ' figures 3.4 9.99
 ends 2 'figure 3_: there is none' figures 3_
 ends 2 'not both' figures --dark --light
 ends 2 'follow the reader' figures --dark --update
@@ -64,7 +64,7 @@ ends 3 'required and not there: libfmt-dev' run 1 --no-install
 ends 3 'something required is missing' doctor
 cp "$1/common/scripts/packages.txt" "$copy/common/scripts"
 
-stub=$(cd "$copy" && find chapters -path '*/ch01_*/exercises/ex01_*.hpp' | head -n 1)
+stub=$(cd "$copy" && find chapters -path '*/ch01_*/exercises/ex01_*.hpp' -print -quit)
 if [[ -n $stub ]]; then
     ends 0 '^1\.1 .* of 3, .*not checked yet' exercise
     ends 0 "${stub##*/}" exercise

@@ -1,5 +1,6 @@
-# Runs PROGRAM --small with one thread and with three, and compares what it prints with EXPECTED, byte for byte.
-foreach(threads 1 3)
+# Runs PROGRAM --small with each of THREADS ("1 3") threads, and compares what it prints with EXPECTED, byte for byte.
+separate_arguments(THREADS)
+foreach(threads IN LISTS THREADS)
     file(REMOVE_RECURSE "${OUT}")
     file(MAKE_DIRECTORY "${OUT}")
     execute_process(COMMAND "${PROGRAM}" --small --threads ${threads} --out "${OUT}"

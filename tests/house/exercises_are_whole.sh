@@ -26,6 +26,8 @@ while read -r line; do
     if [[ -f ${stub%.hpp}.hints ]]; then
         hints=$(awk 'BEGIN {RS = ""} END {print NR}' "${stub%.hpp}.hints")
         [[ $hints == 3 ]] || fault "${stub%.hpp}.hints: $hints hints, not 3 paragraphs"
+        # They are prose: who formats them as code leaves such lines.
+        ! grep -q '^ ' "${stub%.hpp}.hints" || fault "${stub%.hpp}.hints: a line begins with a space"
     fi
     ! cmp -s "$chapter/solutions/$name.hpp" "$chapter/near_misses/$name.hpp" || fault "$name: the near miss is the solution"
     grep -q 'TODO' "$chapter/solutions/$name.hpp" 2>/dev/null && fault "$chapter/solutions/$name.hpp: has a TODO"

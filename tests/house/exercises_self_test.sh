@@ -35,6 +35,7 @@ finds 'no TODO' 'sed -i /TODO/d exercises/ex02_b.hpp'
 finds 'no line' 'sed -i s/1.2/1.3/ exercises/ex02_b.hpp'
 finds 'no line' 'sed -i s/2.of.3/4.of.3/ exercises/ex02_b.hpp'
 finds '2 hints' 'sed -i 5,6d exercises/ex02_b.hints'
+finds 'begins with a space' 'sed -i "s/^two goes/ &/" exercises/ex02_b.hints'
 finds 'near miss is the solution' 'cp solutions/ex02_b.hpp near_misses'
 finds 'no add_exercise' "echo >$tree/exercises.txt"
 

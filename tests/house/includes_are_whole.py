@@ -3,8 +3,11 @@
 
 They are there unasked (BOOK_HEADERS in common/cmake/Book.cmake), and a standard library includes some of its headers in
 others, each in its own way: a file that compiles here may not compile with another compiler. A file includes a header
-by itself or by headers of the book. What readers write into exercises is theirs. Prints each fault; fails if there are
-any.
+by itself or by headers of the book. What readers write into exercises is theirs.
+
+The files of figures/ and measured/ are compiled in batches, in which one's includes are there for the next: of these
+files each includes, too, the headers of the book whose types and functions it uses. A function is known by a name with
+an underscore: shorter ones are words that files use for their own. Prints each fault; fails if there are any.
 """
 import os
 import re
@@ -38,6 +41,10 @@ NAMES = {
     "vector": r"std::vector\b",
 }
 QUOTES_AND_COMMENTS = re.compile(r'//[^\n]*|R"re\((?:.|\n)*?\)re"|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"')
+IN_BATCHES = re.compile(r"chapters/[^/]+/(figures|measured)/[^/]+\.cpp$")
+# Formatted code begins what a header declares in the first column; what is nested does not.
+DECLARED = re.compile(r"^(?:template <[^;{]*?>\s*)?(?:struct|class|enum class|enum|concept|using) ([A-Z]\w+)\b(?!\s*;)|"
+                      r"^(?:template <[^;{]*?>\s*)?[A-Za-z][\w:<>,&* ]*[ &*]([a-z]\w*_\w+)\(", re.M)
 INCLUDE = re.compile(r'^#include [<"]([^>"]+)[>"]', re.M)
 
 
@@ -48,6 +55,25 @@ def all_included(file, includes, found):
             found.add(header)
             all_included(header, includes, found)
     return found
+
+
+def declared_where(text):
+    """The headers of each name that the book's headers declare."""
+    headers = {}
+    for path, code in text.items():
+        if path.endswith(".hpp") and not re.search("/(solutions|near_misses|checks)/|^tests/", path):
+            for names in DECLARED.findall(QUOTES_AND_COMMENTS.sub("", code)):
+                headers.setdefault(names[0] or names[1], set()).add(path)
+    return headers
+
+
+def own_faults(code, included, headers):
+    """Names of the book's headers that the code uses without one of them; and where."""
+    words = {match.group(): match for match in re.finditer(r"(?<![\w.>:])(?:[A-Z]\w+|[a-z]\w*_\w+(?=[(<]))", code)}
+    for name, match in words.items():
+        declares = rf"(?:struct|class|enum|using|concept|typename|[A-Z]\w+|auto) &?{name}\b|[\w>&*] [&*]?{name}\("
+        if not headers.get(name, included) & included and not re.search(declares, code):
+            yield match, sorted(headers[name])[0]
 
 
 def main():
@@ -61,6 +87,9 @@ def main():
                     with open(path, encoding="utf-8") as file:
                         text[path] = file.read()
                     includes[path] = INCLUDE.findall(text[path])
+    figure_register = {f"chapters/{name}/figures.hpp": ["common/program/figure.hpp"] for name in os.listdir("chapters")}
+    includes.update(figure_register)  # made by CMake
+    headers = declared_where(text)
     faults = 0
     for path in sorted(text):
         code = QUOTES_AND_COMMENTS.sub(lambda match: "\n" * match.group().count("\n"), text[path])
@@ -70,6 +99,9 @@ def main():
             if used:
                 print(f"{path}:{code.count(chr(10), 0, used.start()) + 1}: {used.group()} without <{header}>")
                 faults += 1
+        for used, header in own_faults(code, included, headers) if IN_BATCHES.match(path) else ():
+            print(f"{path}:{code.count(chr(10), 0, used.start()) + 1}: {used.group()} without \"{header}\"")
+            faults += 1
     return 1 if faults else 0
 
 

@@ -39,4 +39,21 @@ passes docs/a.cpp '#include <optional>' 'std::optional<int> one;'
 passes docs/a.cpp '// std::optional<int> one;' 'const char* text = "std::optional<int>";'
 passes docs/a.cpp 'const auto text = fmt::format("std::span");'
 passes chapters/ch01_a/exercises/ex01_a.hpp 'std::optional<int> one;'
+
+# The book's own headers, which a file of a batch includes for itself.
+mkdir -p "$tree/chapters/ch01_a/measured"
+printf '%s\n' 'struct Box;' 'struct Tree {' 'int depth;' '};' 'int size_of(const Tree& tree);' >"$tree/common/tree.hpp"
+batched=chapters/ch01_a/measured/a.cpp
+refuses() { # NAME LINE...: in a file of a batch, for that name alone
+    printf '%s\n' '#include "common/b.hpp"' "${@:2}" >"$tree/$batched"
+    "$python" "$here/includes_are_whole.py" "$tree" >"$tree/said.txt" && echo "not found: ${*:2}" && failures=1
+    [[ $(<"$tree/said.txt") == "$batched:2: $1 without \"common/tree.hpp\"" ]] || { cat "$tree/said.txt" && failures=1; }
+    rm "$tree/$batched"
+}
+refuses Tree 'const Tree tree;'
+refuses size_of 'const int size = size_of(numbers);'
+passes "$batched" '#include "common/tree.hpp"' 'const int size = size_of(Tree{});'
+passes "$batched" 'struct Tree {};' 'int size_of(const Tree& tree) { return 0; }' 'const int size = size_of(Tree{});'
+passes "$batched" 'const int size = scene.size_of(1) + Kind::Tree + Box;  // Tree'
+passes docs/a.cpp 'const Tree tree;'
 exit $failures

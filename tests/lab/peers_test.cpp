@@ -162,6 +162,62 @@ TEST_CASE(
         }
 }
 
+TEST_CASE("Embree gives up, and nothing else does, where it would assert: beyond 1.844e18") {
+    const Workbench bench;
+    write_ply(bench / "one.ply",
+              {.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}});
+    const Ray down{.origin = {0.25f, 0.25f, 1.0f}, .direction = {0.0f, 0.0f, -1.0f}};
+    const auto gives_up = [&](const Command& command, const Ray& ray) {
+        write_rays(bench / "rays", {{down, ray}});
+        const Ended ended = run(command.with("--rays", bench / "rays").with("--repeat 1"));
+        INFO(command.text() << ended.out << ended.err);
+        const bool told = ended.out.find("beyond 1.844e18") != std::string::npos;
+        CHECK(ended.code == (told ? 1 : 0));
+        return told;
+    };
+    const Command mesh = lab.with("--mesh", bench / "one.ply").with("--structure naive,embree");
+    CHECK_FALSE(gives_up(mesh, down));
+    CHECK_FALSE(gives_up(mesh, {.origin = {0.0f, 0.0f, 1e18f}, .direction = {0.0f, 0.0f, -1.0f}}));
+    CHECK(gives_up(mesh, {.origin = {0.0f, 0.0f, 1e19f}, .direction = {0.0f, 0.0f, -1.0f}}));
+    CHECK(gives_up(mesh, {.origin = {0.0f, 0.0f, 1.0f}, .direction = {0.0f, 0.0f, -1e19f}}));
+    // In the instance's space the ray is that much larger; or the matrix has no inverse in floats.
+    for (const char* scale : {"1e-10", "1e-12", "1e-20", "1e-40"}) {
+        write_file(bench / "small.json",
+                   fmt::format(R"({{"meshes": {{"one": "one.ply"}}, "scene": "small", "groups": )"
+                               R"({{"small": [{{"object": "one", "matrix": )"
+                               R"([[{0}, 0, 0, 0], [0, {0}, 0, 0], [0, 0, {0}, 0]]}}]}}}})",
+                               scale));
+        const Command small =
+            lab.with("--instances", bench / "small.json").with("--structure bvh-instanced,embree");
+        const Ray far{.origin = {0.0f, 0.0f, 1e7f}, .direction = {0.0f, 0.0f, -1.0f}};
+        CAPTURE(scale);
+        CHECK(gives_up(small, far) == (scale != std::string("1e-10")));
+    }
+}
+
+TEST_CASE("embree's instances are the scene graph's, with its numbers, but for a few roundings") {
+    for (const char* query : {"closest", "any"}) {
+        const auto json =
+            run_json(lab.with("--instances sphereflake:2 --size 64x48 --flatten --check")
+                         .with("--structure bvh-instanced,embree,embree-high,embree-robust --query")
+                         .with(query));
+        REQUIRE(json["structures"].size() == 4);
+        for (const auto& structure : json["structures"]) {
+            INFO(structure.dump());
+            const auto& check = structure["check"];
+            CHECK(structure["hits"] > 300);
+            CHECK(check["other_triangle"].get<int>() + check["missed"].get<int>() +
+                      check["false_hits"].get<int>() <=
+                  3);
+            CHECK(structure["bytes"] < 29'120 * 36);  // each sphere is there once
+        }
+        CHECK(json["structures"][0]["check"]["disagreements"] == 0);
+    }
+    const Ended ended = run(lab.with("--instances sphereflake:8 --structure embree --size 4x3"));
+    CHECK(ended.code == 1);
+    CHECK(ended.out.find("48427561 places of meshes, more than") != std::string::npos);
+}
+
 TEST_CASE("a peer's wrong answers are counted by kind, and the exit code stays 0") {
     const Workbench bench;
     write_ply(bench / "one.ply",

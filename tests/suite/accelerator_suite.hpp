@@ -94,10 +94,10 @@ struct SuiteReport {
 };
 
 struct SuiteOptions {
-    int aimed_rays = sized(10'000, 400);  ///< at edges and vertices, per scene
-    int other_rays = sized(400, 40);      ///< of each other kind, per scene
+    int aimed_rays = sized(10'000, 120);  ///< at edges and vertices, per scene
+    int other_rays = sized(400, 12);      ///< of each other kind, per scene
     /// About so many per scene whose naive answers the exact oracle sees.
-    int exact_rays = sized(100, 20);
+    int exact_rays = sized(100, 8);
     unsigned patience =
         60;  ///< seconds that a scene may take in the child before it counts as hanging
     /// Tries each scene in a child process first, so that a crash or a hang becomes a failure with

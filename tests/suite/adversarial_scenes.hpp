@@ -98,6 +98,24 @@ inline void add_box(std::vector<Triangle>& triangles, const Point3& low, const P
 
 }  // namespace scenes
 
+/// Few scenes at the ends of what floats can hold, for rays that each test aims in its own way.
+inline std::vector<TestScene> extreme_scenes() {
+    using namespace scenes;
+    std::vector<TestScene> all;
+    const auto scaled = [&](std::string name, float scale, const Vector3& shift) {
+        all.push_back({std::move(name), mapped(soup(60, 0.4f, 31), [&](const Point3& p) {
+                           return p * scale + shift;
+                       })});
+    };
+    scaled("largest floats", 2e38f, Vector3(-1e38f));
+    scaled("denormal", 1e-43f, Vector3(0.0f));
+    scaled("far away on one axis", 1.0f, Vector3(1e6f, 0.0f, 0.0f));
+    all.push_back({"flat and far away", mapped(soup(60, 0.4f, 33), [](const Point3& p) {
+                       return Point3(1e6f, p.y * 1e-6f, p.z * 1e-6f);
+                   })});
+    return all;
+}
+
 inline std::vector<TestScene> adversarial_scenes() {
     using namespace scenes;
     std::vector<TestScene> all;

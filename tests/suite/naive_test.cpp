@@ -14,8 +14,7 @@
 namespace space {
 namespace {
 
-constexpr int random_rays = sized(20'000, 1'000), aimed_rays = sized(10'000, 300),
-              mesh_rays = sized(600, 30), exact_rays = sized(1'000, 20);
+constexpr int random_rays = 20'000, aimed_rays = 10'000, mesh_rays = 600, exact_rays = 1'000;
 
 /// As many as are worth starting for the oracle, which is slow.
 const unsigned threads = std::max(1u, std::thread::hardware_concurrency());

@@ -14,8 +14,8 @@ A build(std::span<const Triangle> triangles) {
 /// A few rays of every kind are enough to catch these.
 SuiteOptions few_rays() {
     SuiteOptions options;
-    options.aimed_rays = sized(200, 60);
-    options.other_rays = sized(30, 10);
+    options.aimed_rays = 200;
+    options.other_rays = 30;
     options.exact_rays = 5;
     options.in_child = true;
     return options;

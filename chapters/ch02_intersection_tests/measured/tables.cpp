@@ -211,9 +211,6 @@ const auto& by_name(const auto& all, std::string_view name, auto member) {
         if (one.*member == name) return one;
     throw std::out_of_range(fmt::format("no {} was measured", name));
 }
-std::string fixed(double value, int digits) {
-    return fmt::format("{:.{}f}", value, digits);
-}
 
 constexpr std::array in_float{"moller-trumbore-float", "lichter-first", "lichter-improved",
                               "unit-triangle",         "plucker",       "watertight"};

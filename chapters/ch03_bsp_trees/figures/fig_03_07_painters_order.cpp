@@ -56,16 +56,16 @@ Point2 name_place(const PlaneView& view, const Piece& piece, const Point2& circl
     return distance < apart ? place + (apart / distance - 1.0f) * (middle - circle) : place;
 }
 
-constexpr double left = 470, width = 160, row = 44;
+constexpr double left = 470, bar_width = 160, bar_row = 44;
 
 /// The eye's picture when these pieces have been painted.
 void draw_picture(Svg& svg, double top, const Story& story, std::span<const std::size_t> painted) {
     svg.begin_group(fmt::format("picture-{}", painted.size()));
-    svg.rect(at(left, top), at(width, 22), {.stroke = Ink::quiet});
+    svg.rect(at(left, top), at(bar_width, 22), {.stroke = Ink::quiet});
     for (const std::size_t i : painted) {
         const auto [from, to] = angles(story.pieces[i]);
-        svg.rect(at(left + width * from / std::numbers::pi, top),
-                 at(width * (to - from) / std::numbers::pi, 22),
+        svg.rect(at(left + bar_width * from / std::numbers::pi, top),
+                 at(bar_width * (to - from) / std::numbers::pi, 22),
                  {.stroke = {}, .fill = colors[story.pieces[i].polygon]});
     }
     svg.end_group();
@@ -99,13 +99,13 @@ Svg fig_03_07(const Options&) {
         svg.text(name_place(view, piece, where), written(piece), {.size = 20, .halo = true});
         svg.circle(where, 12, {.stroke = Ink::ink, .fill = Ink::paper}, "order-" + piece.name);
         svg.text(moved(where, 0, 6), fmt::format("{}", k + 1), {.size = 17, .bold = true});
-        const double top = 22 + row * static_cast<double>(k);
+        const double top = 22 + bar_row * static_cast<double>(k);
         svg.text(at(410, top + 18), fmt::format("{}", k + 1),
                  {.anchor = Anchor::start, .size = 17, .bold = true});
         svg.text(at(430, top + 18), written(piece), {.anchor = Anchor::start, .size = 20});
         draw_picture(svg, top, story, std::span(order).first(k + 1));
     }
-    svg.text(at(left + width / 2, 22 + row * static_cast<double>(order.size()) + 16),
+    svg.text(at(left + bar_width / 2, 22 + bar_row * static_cast<double>(order.size()) + 16),
              "what the eye sees", {.ink = Ink::quiet, .size = 17});
     return svg;
 }

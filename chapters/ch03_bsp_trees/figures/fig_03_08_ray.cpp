@@ -29,7 +29,7 @@ bool passes(const ConvexCell& cell, const Double2& from, const Double2& to) {
     return enter < leave;
 }
 
-constexpr double width = 26.0, height = 13.0;
+constexpr double plane_width = 26.0, plane_height = 13.0;
 
 /// What the ray did on its way from `start` to its hit.
 struct Walk {
@@ -57,7 +57,7 @@ Walk walk_of(const BasicRay<2>& ray, const BspTree<2>& tree) {
 }
 
 void draw_plane(Svg& svg, const Story& story, const Walk& walk) {
-    const PlaneView view{.corner = {8, 16}, .scale = 24, .size = height};
+    const PlaneView view{.corner = {8, 16}, .scale = 24, .size = plane_height};
     for (const EmptyCell& cell : story.cells)
         if (passes(cell.cell, walk.start, walk.end))
             svg.polygon(view(cell.cell), {.stroke = {}, .fill = Ink::sky, .opacity = 0.3});
@@ -73,17 +73,18 @@ void draw_plane(Svg& svg, const Story& story, const Walk& walk) {
             draw_segment(svg, view, piece.from, piece.to,
                          {.stroke = {}, .fill = is_in(walk.crossed, node) ? Ink::green : Ink::ink});
         }
-    svg.rect(view({0, height}), at(24 * width, 24 * height), {.stroke = Ink::quiet});
+    svg.rect(view({0, plane_height}), at(24 * plane_width, 24 * plane_height),
+             {.stroke = Ink::quiet});
     svg.line(view(walk.start), view(walk.end), {.stroke = Ink::vermillion, .arrow = true}, "ray");
     svg.circle(view(walk.start), 5, {.stroke = {}, .fill = Ink::vermillion});
     svg.circle(view(walk.end), 6, {.stroke = Ink::vermillion});
 }
 
-constexpr double row = 26;
+constexpr double tree_row = 26;
 
 void draw_tree(Svg& svg, const Story& story, const TreeLayout& layout, const Walk& walk) {
     const double slots = static_cast<double>(story.cells.size()), slot = 620.0 / slots;
-    const auto place = [&](const Double2& p) { return at(10 + slot * p.x, 356 + row * p.y); };
+    const auto place = [&](const Double2& p) { return at(10 + slot * p.x, 356 + tree_row * p.y); };
     for (std::size_t i = 0; i < story.turns.size(); ++i)
         if (story.turns[i].parent != BspTree<2>::none)
             svg.line(place(layout.nodes[story.turns[i].parent]), place(layout.nodes[i]),
@@ -117,17 +118,17 @@ Svg fig_03_08(const Options&) {
     const Story story =
         watched_build(scattered_segments(),
                       {.splitter = BspConfig::SplitterChoice::weighted, .split_weight = 3.0},
-                      {{0, 0}, {width, 0}, {width, height}, {0, height}});
+                      {{0, 0}, {plane_width, 0}, {plane_width, plane_height}, {0, plane_height}});
     const BasicRay<2> ray{.origin = {0.7f, 11.5f}, .direction = {1.0f, -0.4f}};
     const Walk walk = walk_of(ray, story.tree);
     const TreeLayout layout = layout_of(story);
     Svg svg(
         "A ray walks a BSP tree front to back: both children only where it crosses a node's "
         "line, and no further than its hit",
-        640, 24 + 312 + 60 + row * static_cast<double>(layout.levels - 1));
+        640, 24 + 312 + 60 + tree_row * static_cast<double>(layout.levels - 1));
     draw_plane(svg, story, walk);
     draw_tree(svg, story, layout, walk);
-    draw_legend(svg, 356 + row * static_cast<double>(layout.levels - 1) + 24, walk,
+    draw_legend(svg, 356 + tree_row * static_cast<double>(layout.levels - 1) + 24, walk,
                 story.turns.size());
     return svg;
 }

@@ -39,14 +39,14 @@ struct Step {
     std::string tells;
 };
 
-struct Script {
+struct BuildScript {
     std::vector<Step> steps;
     std::vector<Steps> of_turn;
 };
 
-Script script_of(const Story& story) {
+BuildScript script_of(const Story& story) {
     const std::size_t none = story.turns.size();
-    Script script;
+    BuildScript script;
     script.steps.push_back(
         {none, false,
          fmt::format("{} segments; the ticks mark their fronts. The builder has one set of them, "
@@ -122,7 +122,7 @@ Ink ink_of(const Story& story, const Step& step, std::size_t piece) {
 /// The story, its script, and where its parts stand on the paper.
 struct Stage {
     Story story = heinonen_story();
-    Script script = script_of(story);
+    BuildScript script = script_of(story);
     TreeLayout layout = layout_of(story);
     int last = static_cast<int>(script.steps.size()) - 1;
     PlaneView view{.corner = {8, 10}, .scale = 21, .size = heinonen_size};

@@ -36,9 +36,9 @@ DrawnTree drawn(const Story& story) {
 }
 
 /// Turns the walk's events into steps.
-class Script {
+class WalkScript {
   public:
-    Script(const Story& story, const BasicRay<2>& ray)
+    WalkScript(const Story& story, const BasicRay<2>& ray)
         : story_(story), ray_(ray), children_(children_of(story)) {
         waiting_.push_back({0, ray.tmin, ray.tmax});
         add({.tells = fmt::format(
@@ -171,7 +171,7 @@ Svg fig_03_14(const Options&) {
     const BasicRay<2> ray{.origin = {1.0f, 15.0f}, .direction = {1.0f, -0.36f}};
     return walk_drawing(
         "A ray's walk through the tree of the segments A to G, step by step, with what waits",
-        drawn(story), ray, Script(story, ray).steps);
+        drawn(story), ray, WalkScript(story, ray).steps);
 }
 
 }  // namespace space::ch03

@@ -10,9 +10,9 @@ namespace space::ch03 {
 namespace {
 
 /// Writes the builder's events down.
-class Watcher {
+class BuildWatcher {
   public:
-    Watcher(Story& story, std::span<const Segment> segments) : story_(story) {
+    BuildWatcher(Story& story, std::span<const Segment> segments) : story_(story) {
         for (std::uint32_t i = 0; i < segments.size(); ++i)
             story_.pieces.push_back({std::string(1, static_cast<char>('A' + static_cast<int>(i))),
                                      i, Double2(segments[i].a), Double2(segments[i].b)});
@@ -97,7 +97,7 @@ ConvexCell part_of(const ConvexCell& cell, const SplitPlane<2>& line, bool in_fr
 Story watched_build(std::span<const Segment> segments, const BspConfig& config,
                     const ConvexCell& frame) {
     Story story;
-    Watcher watcher(story, segments);
+    BuildWatcher watcher(story, segments);
     story.tree = BspBuilder<2>::build(segments, config, watcher);
     for (const Fragment<2>& fragment : story.tree.fragments)
         story.fragment_pieces.push_back(watcher.number_of(fragment));

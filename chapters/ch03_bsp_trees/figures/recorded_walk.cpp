@@ -8,7 +8,7 @@ namespace space::ch03 {
 namespace {
 
 /// Writes the events down.
-struct Watcher {
+struct WalkWatcher {
     std::vector<WalkEvent> events = {};
     void observe(const WalkEvent& event) { events.push_back(event); }
 };
@@ -25,7 +25,7 @@ double hit_in(const BspTree<2>& tree, std::uint32_t node, const BasicRay<2>& ray
 }
 
 std::vector<WalkEvent> watched_walk(const BspTree<2>& tree, const BasicRay<2>& ray) {
-    Watcher watcher;
+    WalkWatcher watcher;
     NoCounts none;
     double nearest = infinity;
     front_to_back(

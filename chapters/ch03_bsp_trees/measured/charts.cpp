@@ -13,13 +13,9 @@ template <class Value>
 Series line(const std::vector<Growth>& growth, std::string_view scene, std::string_view method,
             const Value& value) {
     const Growth& g = growth_of(growth, scene, method);
-    Series series{.name = fmt::format("{}, {}", scene, method), .x = {}, .y = {}};
-    for (const TreePoint& point : g.points) {
-        series.x.push_back(double(point.polygons));
-        series.y.push_back(value(point));
-    }
-    if (const auto fitted = slope(g, value)) series.note = fmt::format("slope {:.2f}", *fitted);
-    return series;
+    const Series series =
+        series_along(fmt::format("{}, {}", scene, method), g.points, &TreePoint::polygons, value);
+    return slope(g, value) ? with_slope(series) : series;
 }
 
 /// Zero has no place on a logarithmic axis: "none" is drawn here, below everything counted.

@@ -151,10 +151,6 @@ void print_grades(const std::vector<GradePoint>& grades, bool times) {
 
 namespace {
 
-std::string fixed(double value, int digits) {
-    return fmt::format("{:.{}f}", value, digits);
-}
-
 void quote_pictures(const Measurements& measured, Numbers& numbers) {
     const Pictures& pictures = measured.pictures;
     const double rays = double(pictures.rays);

@@ -4,7 +4,8 @@
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
 #include "chapters/ch04_kd_trees/published_kd_tree.hpp"
 #include "common/parallel.hpp"
-#include "common/scenes/shapes.hpp"
+#include "common/program/heat.hpp"
+#include "common/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -17,16 +18,6 @@ namespace space::ch04 {
 namespace {
 
 constexpr int width = 312, height = 234;
-
-/// From few to many: dark to light, so that it reads without colours too.
-constexpr std::array ramp{0x440154u, 0x3B528Bu, 0x21918Cu, 0x5EC962u, 0xFDE725u};
-
-Color heat(double share) {
-    const double place = std::clamp(share, 0.0, 1.0) * double(ramp.size() - 1);
-    const auto step = std::min(static_cast<std::size_t>(place), ramp.size() - 2);
-    return glm::mix(srgb(ramp[step]), srgb(ramp[step + 1]),
-                    static_cast<float>(place - static_cast<double>(step)));
-}
 
 /// What each pixel's ray did.
 template <class Tree>
@@ -78,9 +69,7 @@ Image picture(const Map& map, const Scale& scale) {
 
 void draw_scale(Svg& svg, const Scale& scale, double top) {
     constexpr double left = 60, length = 520;
-    Image bar(260, 1);
-    for (int x = 0; x < bar.width(); ++x) bar.at(x, 0) = heat((x + 0.5) / bar.width());
-    svg.picture(at(left, top), at(length, 16), bar, "scale");
+    svg.picture(at(left, top), at(length, 16), heat_bar(), "scale");
     for (int power = 0; power <= static_cast<int>(scale.decades); ++power) {
         const double x = left + length * power / scale.decades;
         svg.line(at(x, top + 16), at(x, top + 22), {.stroke = Ink::quiet});

@@ -34,7 +34,8 @@ Scene under_sail(const Point3& low_corner) {
 }
 
 /// The tree's picture; marked is what it does not see.
-Image picture(const Scene& scene, const PublishedKdTreeConfig& config, const Options& options) {
+Image tree_picture(const Scene& scene, const PublishedKdTreeConfig& config,
+                   const Options& options) {
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const auto tree = PublishedKdTree<>::build(triangles, config);
     const auto truth = KdTree<>::build(triangles);
@@ -53,8 +54,8 @@ Image picture(const Scene& scene, const PublishedKdTreeConfig& config, const Opt
 
 Image fig_04_04(const Options& options) {
     const Scene outside = under_sail({1.0f, -1.0f, 1.2f}), inside = under_sail({1.0f, -1.0f, 0.6f});
-    return side_by_side({picture(outside, {}, options), picture(inside, {}, options),
-                         picture(inside, {.whole_scene_box = true}, options)});
+    return side_by_side({tree_picture(outside, {}, options), tree_picture(inside, {}, options),
+                         tree_picture(inside, {.whole_scene_box = true}, options)});
 }
 
 }  // namespace space::ch04

@@ -88,7 +88,7 @@ void draw_cell(Svg& svg, const Sweep& whole, const Sweep& clipped) {
         for (const bool within : {false, true}) {
             const Aabb2 shown = within ? cell : Aabb2{cell.min - rim, cell.max + rim};
             const Ray2 along{segment.a, segment.b - segment.a, 0.0f, 1.0f};
-            const RayPart part = *part_in(shown, along, KdRay<2>(along));
+            const RayPart part = *part_in(shown, KdRay<2>(along), RayPart::all_of(along));
             const Double2 from(along.origin), way(along.direction);
             draw_segment(svg, view, from + part.enter * way, from + part.leave * way,
                          {.stroke = {}, .fill = within ? Ink::ink : Ink::faint});

@@ -14,7 +14,7 @@
 namespace space::ch04 {
 namespace {
 
-constexpr double size = 12.0, side = 208;
+constexpr double cells_size = 12.0, cells_side = 208;
 
 /// The walls of a room, and two rings of short segments in it: much detail in little space.
 std::vector<Segment> room_with_rings() {
@@ -47,8 +47,9 @@ double expected_cost(const Story& story) {
 }
 
 void draw_panel(Svg& svg, const Story& story, const char* name, double left) {
-    const PlaneView view{.corner = {left, 34}, .scale = side / size, .size = size};
-    svg.text(at(left + 0.5 * side, 22), name, {.size = 18, .bold = true});
+    const PlaneView view{
+        .corner = {left, 34}, .scale = cells_side / cells_size, .size = cells_size};
+    svg.text(at(left + 0.5 * cells_side, 22), name, {.size = 18, .bold = true});
     for (const Turn& turn : story.turns) {
         if (!turn.split && turn.set.empty())
             svg.polygon(view(corners_of(turn.cell)),
@@ -61,9 +62,10 @@ void draw_panel(Svg& svg, const Story& story, const char* name, double left) {
         svg.line(view(Double2(segment.a)), view(Double2(segment.b)), {.stroke = Ink::ink});
     std::size_t leaves = 0;
     for (const Turn& turn : story.turns) leaves += !turn.split;
-    svg.text(at(left + 0.5 * side, 62 + side), fmt::format("{} leaves", leaves), {.size = 17});
-    svg.text(at(left + 0.5 * side, 86 + side), fmt::format("cost {:.1f}", expected_cost(story)),
+    svg.text(at(left + 0.5 * cells_side, 62 + cells_side), fmt::format("{} leaves", leaves),
              {.size = 17});
+    svg.text(at(left + 0.5 * cells_side, 86 + cells_side),
+             fmt::format("cost {:.1f}", expected_cost(story)), {.size = 17});
 }
 
 }  // namespace
@@ -73,13 +75,13 @@ Svg fig_04_07(const Options&) {
     const std::vector<Segment> segments = room_with_rings();
     Svg svg(
         "The cells of three k-d trees over one scene: cut in the middle, at the median, by areas",
-        656, 132 + side - 34);
+        656, 132 + cells_side - 34);
     double left = 4;
     for (const auto& [rule, name] : {std::pair{Rule::middle, "middle"},
                                      {Rule::median, "median"},
                                      {Rule::sah, "by areas (SAH)"}}) {
         draw_panel(svg, watched_build(segments, {.rule = rule, .max_leaf_size = 2}), name, left);
-        left += side + 12;
+        left += cells_side + 12;
     }
     return svg;
 }

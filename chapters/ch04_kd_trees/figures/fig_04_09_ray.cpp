@@ -12,7 +12,7 @@
 namespace space::ch04 {
 namespace {
 
-constexpr double height = 13.0, scale = 24, row = 26;
+constexpr double plane_height = 13.0, plane_scale = 24, row = 26;
 constexpr SahCosts costs{.intersection = 2.0, .empty_bonus = 0.2};  // for many small cells
 
 /// What the ray did on its way from `start` to its hit.
@@ -35,7 +35,7 @@ struct Walk {
 };
 
 void draw_plane(Svg& svg, const Story& story, const Walk& walk) {
-    const PlaneView view{.corner = {8, -12}, .scale = scale, .size = height};
+    const PlaneView view{.corner = {8, -12}, .scale = plane_scale, .size = plane_height};
     for (const Turn& turn : story.turns)
         if (!turn.split && walk.visited.contains(turn.node))
             svg.polygon(view(corners_of(turn.cell)),

@@ -9,17 +9,10 @@ namespace {
 template <class Value>
 Series line(const std::vector<Growth>& growth, std::string_view scene, std::string_view rule,
             const std::string& name, const Value& value) {
-    Series series{.name = name, .x = {}, .y = {}};
-    for (const Growth& g : growth) {
-        if (g.front().scene != scene || g.front().rule != rule) continue;
-        for (const TreePoint& point : g) {
-            series.x.push_back(double(point.n));
-            series.y.push_back(value(point));
-        }
-        const double fitted = slope(g, value);
-        series.note = fmt::format("slope {:.2f}", std::abs(fitted) < 0.005 ? 0.0 : fitted);
-    }
-    return series;
+    for (const Growth& g : growth)
+        if (g.front().scene == scene && g.front().rule == rule)
+            return with_slope(series_along(name, g, &TreePoint::n, value));
+    return {.name = name, .x = {}, .y = {}};
 }
 
 /// Zero has no place on a logarithmic axis: "none" is drawn here, below everything counted.
@@ -109,14 +102,10 @@ Chart points_chart(const std::vector<PointSet>& points) {
                 .y_label = "visited per search",
                 .log_x = true,
                 .series = {}};
-    for (const auto& [name, sets] : series_of(points)) {
-        Series series{.name = name, .x = {}, .y = {}};
-        for (const PointSet* set : sets) {
-            series.x.push_back(double(set->points));
-            series.y.push_back(visited(*set));
-        }
-        chart.series.push_back(series);
-    }
+    for (const auto& [name, sets] : series_of(points))
+        chart.series.push_back(series_along(
+            name, sets, [](const PointSet* set) { return double(set->points); },
+            [](const PointSet* set) { return visited(*set); }));
     return chart;
 }
 

@@ -106,7 +106,7 @@ PlaneTimes measure_walk(const std::string& where, const std::vector<Ray>& rays,
         std::uint64_t visits = 0;
         for (const Ray& ray : rays) {
             const KdRay<3> prepared(ray);
-            if (const auto part = part_in(tree.box, ray, prepared))
+            if (const auto part = part_in(tree.box, prepared, RayPart::all_of(ray)))
                 visits += count_visits(tree, *part, [&](std::uint32_t, const KdNode& node) {
                     return cross_across(prepared, node.axis(), node.position());
                 });
@@ -116,7 +116,7 @@ PlaneTimes measure_walk(const std::string& where, const std::vector<Ray>& rays,
     const auto general = [&] {
         std::uint64_t visits = 0;
         for (const Ray& ray : rays)
-            if (const auto part = part_in(tree.box, ray, KdRay<3>(ray)))
+            if (const auto part = part_in(tree.box, KdRay<3>(ray), RayPart::all_of(ray)))
                 visits += count_visits(tree, *part, [&](std::uint32_t index, const KdNode&) {
                     return cross_general(ray, planes[index]);
                 });

@@ -54,6 +54,7 @@ void require_holds(const CoarsePatch& patch, Pcg32& random) {
         const double height =
             double{patch.lowest} + share * (double{patch.highest} - double{patch.lowest});
         const Point3 point = point_of(patch, {a, b, n - a - b}, height);
+        if (box.contains(point)) continue;  // to make a report's texts takes longer than the rest
         CAPTURE(a, b, n - a - b, height, point);
         REQUIRE(box.contains(point));
     }

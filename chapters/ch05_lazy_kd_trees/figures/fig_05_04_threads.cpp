@@ -48,11 +48,11 @@ class Log {
 thread_local std::size_t this_thread = 0;
 
 /// Writes down what is told. The first thread's node takes until the third one is done.
-struct Watcher : NoObserver {
+struct ThreadWatcher : NoObserver {
     Log* log;
     std::uint32_t slow;
 
-    explicit Watcher(Log& to, std::uint32_t slow_node) : log(&to), slow(slow_node) {}
+    explicit ThreadWatcher(Log& to, std::uint32_t slow_node) : log(&to), slow(slow_node) {}
     using NoObserver::observe;
     void observe(const LazyKdEvent::Entered& event) const {
         if (event.node == 0) return;
@@ -72,9 +72,9 @@ std::vector<Told> watched_threads() {
     constexpr std::uint32_t near = 3, far = 2;
     const std::vector<Segment> segments = heinonen_segments();
     Log log;
-    const LazyKdNodes<2, Watcher> nodes(
+    const LazyKdNodes<2, ThreadWatcher> nodes(
         segments, {.rule = LazyKdTreeConfig::Rule::median, .max_leaf_size = 1, .at_once = 0},
-        Watcher(log, near));
+        ThreadWatcher(log, near));
     nodes.node(0);
     const auto come = [&](std::size_t thread, std::uint32_t node) {
         this_thread = thread;
@@ -97,7 +97,7 @@ std::string fmt_node(const char* what, std::uint32_t node) {
     return what + std::to_string(node);
 }
 
-constexpr double left = 120, lane = 74, top = 40, width = 840;
+constexpr double lanes_left = 120, lane = 74, top = 40, lanes_width = 840;
 
 double y_of(std::size_t thread) {
     return top + lane * double(thread);
@@ -118,14 +118,15 @@ Svg fig_05_04(const Options&) {
     Svg svg(
         "Three threads at a tree whose root stands: one makes a node, one waits for it, one makes "
         "another node meanwhile",
-        width, top + 3 * lane);
+        lanes_width, top + 3 * lane);
     // The last two moments are those of threads that were set free together: in which order they
     // are told is chance.
     const auto moment = [&](Told::What what, std::size_t thread) {
         for (std::size_t i = 0; i < told.size(); ++i)
             if (told[i].what == what && told[i].thread == thread)
-                return left + (width - left - 110) * double(std::min(i, std::size_t{8})) / 8.0;
-        return width;
+                return lanes_left +
+                       (lanes_width - lanes_left - 110) * double(std::min(i, std::size_t{8})) / 8.0;
+        return lanes_width;
     };
     const auto node_of = [&](std::size_t thread) {
         for (const Told& event : told)
@@ -133,12 +134,12 @@ Svg fig_05_04(const Options&) {
         return 0u;
     };
     for (std::size_t thread = 0; thread < 3; ++thread) {
-        svg.text(at(left - 14, y_of(thread) + 23), std::string("thread ") + "ABC" [thread],
+        svg.text(at(lanes_left - 14, y_of(thread) + 23), std::string("thread ") + "ABC" [thread],
                  { .anchor = Anchor::end, .bold = true });
-        svg.line(at(left, y_of(thread) + 34), at(width - 8, y_of(thread) + 34),
+        svg.line(at(lanes_left, y_of(thread) + 34), at(lanes_width - 8, y_of(thread) + 34),
                  {.stroke = Ink::quiet, .arrow = true});
     }
-    const double end = width - 16, done = moment(Told::stands, 0);
+    const double end = lanes_width - 16, done = moment(Told::stands, 0);
     draw_bar(svg, 0, moment(Told::enters, 0), done, Ink::green,
              fmt_node("makes node ", node_of(0)));
     draw_bar(svg, 0, done, end, Ink::blue, "goes on");

@@ -2,6 +2,7 @@
 // at lazy geometry).
 
 #include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
 #include "chapters/ch05_lazy_kd_trees/measured/measurements.hpp"
 #include "common/measure.hpp"
 #include "common/program/progress.hpp"

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace space::ch05 {
 
@@ -17,9 +16,6 @@ std::optional<PublishedRow> published(const ViewPoint& point) {
 
 namespace {
 
-std::string fixed(double value, int digits) {
-    return fmt::format("{:.{}f}", value, digits);
-}
 /// Enough digits for small shares: "0.0035 %".
 std::string share_of(double share) {
     return share > 0.0 && share < 0.001 ? fmt::format("{:.4f} %", 100.0 * share) : percent(share);

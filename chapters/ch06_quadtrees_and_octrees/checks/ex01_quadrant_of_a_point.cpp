@@ -164,7 +164,8 @@ TEST_CASE("what is not a number or infinite is in no cell") {
 
 TEST_CASE(
     "on all borders and one float beside them, a point of the root is in one cell each depth") {
-    for (const Box& whole : {root, square(0.75, -3, 0.25), square(-1048576, 3145728, 1048576)}) {
+    for (const Box& whole :
+         {root, square(-1, 0, 2), square(0.75, -3, 0.25), square(-1048576, 3145728, 1048576)}) {
         const double edge = whole.max.x - whole.min.x;
         for (const float y : on_and_beside_borders(whole.min.y, edge))
             for (const float x : on_and_beside_borders(whole.min.x, edge))
@@ -173,7 +174,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("thirty levels down the quadrants still hold their points") {
+TEST_CASE("thirty levels down the quadrants still hold their points, and no others") {
     Pcg32 random(1);
     for (int i = 0; i < 200; ++i) {
         const int smaller = int(random.below(40));
@@ -185,7 +186,12 @@ TEST_CASE("thirty levels down the quadrants still hold their points") {
             const int right = double{x} >= cell.min.x + half, up = double{y} >= cell.min.y + half;
             CAPTURE(Point2(x, y), depth, cell.min, cell.max);
             REQUIRE(answer(root, cell, x, y) == fmt::format("quadrant {}", right + 2 * up));
-            cell = square(cell.min.x + right * half, cell.min.y + up * half, half);
+            const auto child = [&](int column, int row) {
+                return square(cell.min.x + column * half, cell.min.y + row * half, half);
+            };
+            REQUIRE(answer(root, child(1 - right, up), x, y) == "not in the cell");
+            REQUIRE(answer(root, child(right, 1 - up), x, y) == "not in the cell");
+            cell = child(right, up);
         }
     }
 }

@@ -171,7 +171,10 @@ TEST_CASE(
 
 TEST_CASE("codes share as many cells as first digits, whichever bit is the first to differ") {
     Pcg32 random(2);
-    for (int bit = 0; bit < 63; ++bit)
+    for (int bit = 0; bit < 63; ++bit) {
+        const std::uint64_t ones = (std::uint64_t{2} << bit) - 1;
+        CAPTURE(children_of(ones));
+        REQUIRE(common_depth(0, ones) == depth_by_halving(0, ones));
         for (int i = 0; i < 100; ++i) {
             const std::uint64_t high = random.next(), low = random.next();
             const std::uint64_t a = (high << 32 | low) >> 1;
@@ -181,4 +184,5 @@ TEST_CASE("codes share as many cells as first digits, whichever bit is the first
             REQUIRE(common_depth(a, b) == depth_by_halving(a, b));
             REQUIRE(common_depth(b, a) == depth_by_halving(a, b));
         }
+    }
 }

@@ -150,6 +150,12 @@ TEST_CASE("planes that are crossed at once are crossed together") {
     require_mirrored({{2, 2, 1}, {1, 1, 1}}, {0, 3, 7});
 }
 
+TEST_CASE("planes that are crossed soon after each other are crossed one by one") {
+    require_mirrored({{2, 2, 1}, {63, 64, 0}}, {0, 2, 3});
+    require_mirrored({{2, 2, 1}, {99'999, 100'000, 0}}, {0, 2, 3});
+    require_mirrored({{2, 2, 2}, {99'999, 99'998, 100'000}}, {0, 4, 5, 7});
+}
+
 TEST_CASE("a ray beside the root, behind it, or one that only touches it, passes no child") {
     CHECK(along({{-1, 2, 2}, {0, 1, 0}}) == "none");
     CHECK(along({{9, 2, 2}, {0, 1, 0}}) == "none");

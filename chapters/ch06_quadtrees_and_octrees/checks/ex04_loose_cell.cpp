@@ -164,7 +164,7 @@ TEST_CASE("a centre in a plane is in the upper cell, and half a float below it i
 
 TEST_CASE(
     "a size that exceeds a cell's edge by less than a float does not go as deep as the cell") {
-    CHECK(stored(along(0, 0x1p-24f - 0x1p-40f, 0.5f + 0x1p-24f)) == words(0, {}));
+    CHECK(stored(along(0, 0x1p-24f - 0x1p-48f, 0.5f + 0x1p-24f)) == words(0, {}));
     CHECK(stored(along(0, 0x1p-24f, 0.5f + 0x1p-24f)) == words(1, {}));
     CHECK(stored(along(1, 0x1p-34f - 0x1p-50f, 0x1p-11f + 0x1p-34f)) == words(10, {}));
 }

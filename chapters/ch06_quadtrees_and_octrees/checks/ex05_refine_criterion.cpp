@@ -88,6 +88,33 @@ TEST_CASE("a difference as large as the threshold is none") {
     CHECK(must_be_split(picture, cell, std::nextafter(0.25f, 0.0f)));
 }
 
+TEST_CASE("a difference above the threshold by less than a float can say is one") {
+    Drawing picture(16, 16);
+    picture.put(4, 8, grey_but(0, 0.5f + 0x1p-24f)).put(8, 8, grey_but(0, 0x1p-24f - 0x1p-48f));
+    CHECK(must_be_split(picture, cell, 0.5f));
+    picture.put(8, 8, grey_but(0, 0x1p-24f));
+    CHECK_FALSE(must_be_split(picture, cell, 0.5f));
+}
+
+TEST_CASE("colours brighter than 1, and negative ones, are compared as they are") {
+    Drawing picture(16, 16);
+    picture.corners(cell, grey_but(1, 3.0f));
+    CHECK_FALSE(must_be_split(picture, cell, 0.5f));
+    picture.put(8, 12, grey_but(1, 3.5f));
+    CHECK_FALSE(must_be_split(picture, cell, 0.5f));
+    CHECK(must_be_split(picture, cell, 0.25f));
+    CHECK(must_be_split(even().put(8, 12, grey_but(1, -0.5f)), cell, 0.5f));
+}
+
+TEST_CASE("a black cell is even, and what differs from black is seen") {
+    const TakenSample black{Color(0.0f), 3};
+    Drawing picture(16, 16);
+    picture.corners(cell, black);
+    CHECK_FALSE(must_be_split(picture, cell, 0.0f));
+    picture.put(8, 12, {Color(0.0f, 0x1p-149f, 0.0f), 3});
+    CHECK(must_be_split(picture, cell, 0.0f));
+}
+
 TEST_CASE("samples are compared each with each, not all with one of them, nor with the last one") {
     Drawing picture = even();
     picture.put(8, 8, grey_but(0, 0.375f)).put(4, 12, grey_but(0, 0.625f));
@@ -113,9 +140,28 @@ TEST_CASE("two surfaces of one colour are an edge, whichever corner shows the ot
     }
 }
 
+TEST_CASE("no number of a surface stands for none") {
+    for (const std::uint32_t number : {0u, 0xFFFFFFFFu}) {
+        CAPTURE(number);
+        Drawing picture(16, 16);
+        picture.corners(cell, of_surface(number));
+        REQUIRE_FALSE(must_be_split(picture, cell, 0.5f));
+        for (const auto& [x, y] : {std::pair{4, 8}, {6, 9}, {8, 12}}) {
+            for (const std::uint32_t bit : {1u, 0x10000u, 0x80000000u}) {
+                CAPTURE(x, y, bit);
+                Drawing other = picture;
+                other.put(x, y, of_surface(number ^ bit));
+                REQUIRE(must_be_split(other, cell, 0.5f));
+            }
+        }
+    }
+}
+
 TEST_CASE("a cell of one pixel is never split") {
     Drawing picture(16, 16);
     picture.corners({4, 8, 1}, grey).put(5, 9, of_surface(1));
+    CHECK_FALSE(must_be_split(picture, {4, 8, 1}, 0.0f));
+    picture.put(4, 8, grey_but(0, std::nanf("")));
     CHECK_FALSE(must_be_split(picture, {4, 8, 1}, 0.0f));
     CHECK(must_be_split(Drawing(16, 16).corners({4, 8, 2}, grey).put(6, 10, of_surface(1)),
                         {4, 8, 2}, 0.0f));
@@ -160,19 +206,24 @@ TEST_CASE("a colour that is not finite is like no other, nor like itself") {
     for (const float value : {std::nanf(""), infinity, -infinity})
         for (int channel = 0; channel < 3; ++channel) {
             CAPTURE(value, channel);
-            Drawing one = even();
-            one.put(8, 12, grey_but(channel, value));
-            REQUIRE(must_be_split(one, cell, infinity));
+            for (const auto& [x, y] : {std::pair{4, 8}, {8, 8}, {6, 9}, {8, 12}}) {
+                CAPTURE(x, y);
+                Drawing one = even();
+                one.put(x, y, grey_but(channel, value));
+                REQUIRE(must_be_split(one, cell, infinity));
+            }
             Drawing all(16, 16);
             all.corners(cell, grey_but(channel, value));
             REQUIRE(must_be_split(all, cell, infinity));
+            REQUIRE(
+                must_be_split(Drawing(16, 16).put(6, 9, grey_but(channel, value)), cell, infinity));
         }
 }
 
 TEST_CASE("random pictures: split is what two samples of the evidence ask for") {
     Pcg32 random(1);
     for (int round = 0; round < sized(20'000, 2'000); ++round) {
-        const int edge = 1 << random.below(4);
+        const int edge = 1 + int(random.below(10));
         const int columns = 1 + int(random.below(20)), rows = 1 + int(random.below(20));
         Drawing picture(columns, rows);
         const std::uint32_t traced_one_in = 1 + random.below(8);
@@ -184,10 +235,11 @@ TEST_CASE("random pictures: split is what two samples of the evidence ask for") 
                     if (random.below(12) == 0)
                         sample.color[channel] += 0.125f * float(random.below(4));
                 if (random.below(60) == 0) sample.surface = 5;
+                if (random.below(500) == 0) sample.color.y = std::nanf("");
                 picture.put(x, y, sample);
             }
-        const int x = int(random.below(std::uint32_t(columns))) / edge * edge,
-                  y = int(random.below(std::uint32_t(rows))) / edge * edge;
+        const int x = int(random.below(std::uint32_t(columns)));
+        const int y = int(random.below(std::uint32_t(rows)));
         const float threshold = 0.125f * float(random.below(4));
         CAPTURE(columns, rows, x, y, edge, threshold);
         REQUIRE(must_be_split(picture, {x, y, edge}, threshold) ==

@@ -9,9 +9,10 @@
 /// crosses two planes at once comes to the child beyond both, and one that only touches the root
 /// passes none. The ray ends at `tmin` and `tmax`, and may do so within the root; it may lie in
 /// planes and faces. Components of its direction may be negative, 0 and -0, which is the same. It
-/// is valid. All coordinates, those of the root's corners and centre, too, are small whole numbers,
-/// `tmin` and `tmax` are multiples of 1/4: quotients of differences, as doubles, are equal to each
-/// other or to these just where the exact ones are, and else in the right order.
+/// is valid. All coordinates, those of the root's corners and centre, too, are whole numbers of at
+/// most six digits, `tmin` and `tmax` are multiples of 1/4, but `tmax` may be infinite: quotients
+/// of differences, as doubles, are equal to each other or to these just where the exact ones are,
+/// and else in the right order.
 #pragma once
 
 #include "chapters/ch06_quadtrees_and_octrees/orthtree_cell.hpp"

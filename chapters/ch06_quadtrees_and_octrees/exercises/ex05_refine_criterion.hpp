@@ -6,9 +6,10 @@
 /// must be split. Its evidence are all samples that have been taken from its first pixel to its
 /// last corner, both included; the last corner is `edge` pixels to the right of the first pixel and
 /// `edge` below it, where the next cell begins, or the picture's last column or row where that lies
-/// beyond. A cell must be split if its edge is more than 1, and two samples of the evidence show
-/// different surfaces, or differ in a channel by more than `threshold` (in double), or a colour is
-/// not finite. Pixels that have not been traced say nothing.
+/// beyond. A cell of one pixel is never split. A larger one must be if two samples of the evidence
+/// show different surfaces, or differ in a channel by more than `threshold` (in double), or if a
+/// colour is not finite, be it the only one. Pixels that have not been traced say nothing. Any
+/// number may be that of a surface, and colours may be brighter than 1, or negative.
 #pragma once
 
 #include "common/scene.hpp"

@@ -18,7 +18,7 @@
 namespace space::ch06 {
 namespace {
 
-constexpr double size = 128.0, side = 316, pot_size = 0.5;
+constexpr double stadium_size = 128.0, stadium_side = 316, pot_size = 0.5;
 const Double2 pot_at{83.7, 54.6};  ///< on the field
 const OrthtreeBox<2> lens{pot_at - 0.7 * pot_size, pot_at + 0.7 * pot_size};
 
@@ -66,9 +66,10 @@ std::vector<std::vector<Double2>> teapot_lines() {
 /// Two rings of walls, the lines of a field, and on it a teapot.
 std::vector<Segment> stadium() {
     std::vector<Segment> segments;
-    const Double2 middle(0.5 * size);
+    const Double2 middle(0.5 * stadium_size);
     for (const double width : {0.96, 0.8})
-        add_polyline(segments, arc(middle, 0.5 * width * Double2(size, 0.74 * size), 0, 1, 36));
+        add_polyline(segments, arc(middle, 0.5 * width * Double2(stadium_size, 0.74 * stadium_size),
+                                   0, 1, 36));
     const Double2 half{34.0, 21.0};
     add_polyline(segments, {middle - half, middle + Double2(half.x, -half.y), middle + half,
                             middle + Double2(-half.x, half.y), middle - half});
@@ -193,29 +194,30 @@ void draw_cells(Svg& svg, const PlaneView& view, const Panel& panel, const Ortht
 }
 
 void draw_panel(Svg& svg, const Panel& panel, const std::vector<Segment>& segments, double left) {
-    const PlaneView all{.corner = {left, 34}, .scale = side / size, .size = size};
-    const double zoom = side / (lens.max.x - lens.min.x), below = 34 + side + 46;
+    const PlaneView all{
+        .corner = {left, 34}, .scale = stadium_side / stadium_size, .size = stadium_size};
+    const double zoom = stadium_side / (lens.max.x - lens.min.x), below = 34 + stadium_side + 46;
     // The lens's own view: its lower left corner stands where the plane's is in the other.
     const PlaneView near{.corner = {left - zoom * lens.min.x, below + zoom * lens.min.y},
                          .scale = zoom,
                          .size = lens.max.y - lens.min.y};
-    svg.text(at(left + 0.5 * side, 22), panel.name, {.bold = true});
-    draw_cells(svg, all, panel, {Double2(0.0), Double2(size)});
+    svg.text(at(left + 0.5 * stadium_side, 22), panel.name, {.bold = true});
+    draw_cells(svg, all, panel, {Double2(0.0), Double2(stadium_size)});
     for (const Segment& s : segments)
         if (!is_in(lens, Double2(s.a))) svg.line(all(Double2(s.a)), all(Double2(s.b)));
     const Point2 pot = all(pot_at);
-    for (const double x : {left, left + side})
+    for (const double x : {left, left + stadium_side})
         svg.line(pot, at(x, below), {.stroke = Ink::quiet, .dashed = true});
     svg.circle(pot, 3.5, {.stroke = Ink::paper, .fill = Ink::vermillion});
-    svg.rect(at(left, below), at(side, side), {.stroke = {}, .fill = Ink::paper});
+    svg.rect(at(left, below), at(stadium_side, stadium_side), {.stroke = {}, .fill = Ink::paper});
     draw_cells(svg, near, panel, lens);
-    svg.rect(at(left, below), at(side, side), {.stroke = Ink::quiet});
+    svg.rect(at(left, below), at(stadium_side, stadium_side), {.stroke = Ink::quiet});
     for (const Segment& s : segments)
         if (is_in(lens, Double2(s.a)))
             svg.line(near(Double2(s.a)), near(Double2(s.b)), {.stroke = Ink::vermillion});
-    svg.text(at(left + 0.5 * side, below + side + 26),
+    svg.text(at(left + 0.5 * stadium_side, below + stadium_side + 26),
              fmt::format("{} planes down to the pot", panel.to_pot), {.size = 17});
-    svg.text(at(left + 0.5 * side, below + side + 50),
+    svg.text(at(left + 0.5 * stadium_side, below + stadium_side + 50),
              fmt::format("a ray to the pot meets {:.0f}", panel.planes), {.size = 17});
 }
 
@@ -226,9 +228,9 @@ Svg fig_06_01(const Options&) {
     Svg svg(
         "A stadium with a teapot on its field: the cells of a quadtree and of a k-d tree, above in "
         "full, below around the teapot",
-        656, 34 + 2 * side + 46 + 62);
+        656, 34 + 2 * stadium_side + 46 + 62);
     draw_panel(svg, quadtree(segments), segments, 4);
-    draw_panel(svg, kd_tree(segments), segments, 656 - 4 - side);
+    draw_panel(svg, kd_tree(segments), segments, 656 - 4 - stadium_side);
     return svg;
 }
 

@@ -16,7 +16,7 @@
 namespace space::ch06 {
 namespace {
 
-constexpr double size = 16.0, side = 208;
+constexpr double loose_size = 16.0, loose_side = 208;
 
 /// Short ones, some of them across the middle of everything.
 std::vector<Segment> short_segments() {
@@ -66,9 +66,10 @@ Ink ink_at(std::uint32_t depth) {
 
 void draw_panel(Svg& svg, double left, const char* name, const std::vector<Segment>& segments,
                 const OctreeConfig& config) {
-    const PlaneView view{.corner = {left, 40}, .scale = side / size, .size = size};
+    const PlaneView view{
+        .corner = {left, 40}, .scale = loose_side / loose_size, .size = loose_size};
     const OrthtreeNodes<2> tree = OrthtreeBuilder<2>::build(segments, config);
-    svg.text(at(left + 0.5 * side, 22), name, {.size = 17, .bold = true});
+    svg.text(at(left + 0.5 * loose_side, 22), name, {.size = 17, .bold = true});
     std::size_t at_root = 0;
     std::optional<OrthtreeBox<2>> shown;  // a loose cell, and how far it reaches
     std::vector<std::pair<std::uint32_t, Ink>> named;
@@ -87,7 +88,7 @@ void draw_panel(Svg& svg, double left, const char* name, const std::vector<Segme
     for (const auto& [i, ink] : named)
         svg.line(view(Double2(segments[i].a)), view(Double2(segments[i].b)), {.stroke = ink});
     const auto line = [&](double y, const std::string& text) {
-        svg.text(at(left + 0.5 * side, 40 + side + y), text, {.size = 17});
+        svg.text(at(left + 0.5 * loose_side, 40 + loose_side + y), text, {.size = 17});
     };
     line(26, fmt::format("{} names for {}", tree.references.size(), segments.size()));
     line(50, fmt::format("{} at the root", at_root));
@@ -106,7 +107,7 @@ Svg fig_06_04(const Options&) {
     Svg svg(
         "Short segments in a quadtree that names them in all cells, in one that keeps them "
         "where they fit, and in a loose one",
-        672, 40 + side + 108);
+        672, 40 + loose_side + 108);
     draw_panel(svg, 8, "in all cells", segments, config);
     config.straddlers = Straddlers::keep;
     draw_panel(svg, 232, "where they fit", segments, config);

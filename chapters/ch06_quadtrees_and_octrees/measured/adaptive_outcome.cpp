@@ -8,9 +8,6 @@
 namespace space::ch06 {
 namespace {
 
-std::string fixed(double value, int digits) {
-    return fmt::format("{:.{}f}", value, digits);
-}
 /// Enough digits for a few pixels of a picture: "0.004 %".
 std::string share_of(double share) {
     return share > 0.0 && share < 0.001 ? fmt::format("{:.3f} %", 100.0 * share) : percent(share);

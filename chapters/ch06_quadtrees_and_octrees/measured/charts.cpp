@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <ranges>
 
 namespace space::ch06 {
 namespace {
@@ -27,14 +29,8 @@ Chart points_chart(const std::vector<PointTree>& points) {
                 .series = {}};
     for (const auto& [name, sets] : series_of(points)) {
         if (name.starts_with("pairs 2^-12") || name.starts_with("pairs 2^-16")) continue;
-        Series series{.name = name, .x = {}, .y = {}};
-        for (const PointTree& p : sets) {
-            series.x.push_back(p.bound());
-            series.y.push_back(double(p.cells));
-        }
-        const auto cells = [](const PointTree& p) { return double(p.cells); };
-        if (sets.size() > 1) series.note = fmt::format("slope {:.2f}", slope(sets, cells));
-        chart.series.push_back(std::move(series));
+        chart.series.push_back(
+            with_slope(series_along(name, sets, &PointTree::bound, &PointTree::cells)));
     }
     return chart;
 }
@@ -59,6 +55,25 @@ Chart depths_chart(const std::vector<TreePoint>& depths) {
     return chart;
 }
 
+Chart shapes_chart(const std::vector<TreePoint>& trees) {
+    Chart chart{.title = "Depth and references per triangle of trees, by scene",
+                .x_label = "scene",
+                .y_label = "depth; references per triangle",
+                .kind = ChartKind::bars,
+                .series = {}};
+    chart.categories = scenes_of(trees);
+    const auto add = [&](std::string_view tree, std::string_view what, const auto& value) {
+        chart.add_bars(fmt::format("{}: {}", tree, what), [&](const std::string& scene) {
+            return double(std::invoke(value, tree_of(trees, scene, tree)));
+        });
+    };
+    add(octree, "depth", &TreePoint::depth);
+    add(sah, "depth", &TreePoint::depth);
+    add(octree, "references", &TreePoint::per_triangle);
+    add(sah, "references", &TreePoint::per_triangle);
+    return chart;
+}
+
 Chart rays_chart(const std::vector<TreePoint>& trees) {
     Chart chart{.title = "Rays per second by tree and scene",
                 .x_label = "scene",
@@ -66,14 +81,9 @@ Chart rays_chart(const std::vector<TreePoint>& trees) {
                 .kind = ChartKind::bars,
                 .series = {}};
     chart.categories = scenes_of(trees);
-    for (const std::string_view name : {octree, plain_walk, pointers, kept, loose, linear}) {
-        Series series{.name = std::string(name), .x = {}, .y = {}};
-        for (const std::string& scene : chart.categories) {
-            series.x.push_back(double(series.x.size()));
-            series.y.push_back(speed_beside_sah(trees, scene, name));
-        }
-        chart.series.push_back(std::move(series));
-    }
+    for (const std::string_view name : {octree, plain_walk, pointers, kept, loose, linear})
+        chart.add_bars(
+            name, [&](const std::string& scene) { return speed_beside_sah(trees, scene, name); });
     return chart;
 }
 
@@ -86,15 +96,11 @@ Chart build_chart(const std::vector<TreePoint>& growth) {
                 .series = {}};
     for (const std::string_view scene : {"soup", "stadium"})
         for (const std::string_view name : {sah, octree, linear}) {
-            Series series{.name = fmt::format("{}, {}", scene, name), .x = {}, .y = {}};
-            for (const TreePoint& p : growth) {
-                if (p.scene != scene || p.tree != name) continue;
-                series.x.push_back(double(p.n));
-                series.y.push_back(p.build_ms);
-            }
-            if (series.x.size() > 1)
-                series.note = fmt::format("slope {:.2f}", log_log_slope(series.x, series.y));
-            chart.series.push_back(std::move(series));
+            auto grown = growth | std::views::filter([&](const TreePoint& p) {
+                             return p.scene == scene && p.tree == name;
+                         });
+            chart.series.push_back(with_slope(series_along(
+                fmt::format("{}, {}", scene, name), grown, &TreePoint::n, &TreePoint::build_ms)));
         }
     return chart;
 }

@@ -11,6 +11,7 @@ namespace space::ch06 {
 
 Chart points_chart(const std::vector<PointTree>& points);  ///< cells against (d + 1) n
 Chart depths_chart(const std::vector<TreePoint>& depths);  ///< time against memory
+Chart shapes_chart(const std::vector<TreePoint>& trees);   ///< depth and references, by scene
 Chart rays_chart(const std::vector<TreePoint>& trees);     ///< rays per second, by scene
 Chart build_chart(const std::vector<TreePoint>& growth);
 

@@ -2,6 +2,8 @@
 /// The octree whose nodes have pointers, as a structure of its own: what rays pay for the layout.
 #pragma once
 
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch04_kd_trees/mailbox.hpp"
 #include "chapters/ch04_kd_trees/placed_triangles.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/octree.hpp"
 #include "chapters/ch06_quadtrees_and_octrees/pointer_orthtree.hpp"
@@ -40,19 +42,10 @@ class PointerOctree {
   private:
     template <class Counts, class Found>
     void search(const Ray& ray, Counts& counts, const Found& found) const {
-        Mailbox mailbox(true);
-        double limit = infinity;
+        PlacedTests<FilteredExact, Counts, Found> tests{placed_, references_, ray,
+                                                        counts,  found,       Mailbox(true)};
         const auto own = [&](const PointerNode<3>* node) {
-            for (std::uint32_t i = node->first; i < node->first + node->count; ++i) {
-                const std::uint32_t place = placed_.places[i];
-                if (mailbox.remembers(place)) continue;
-                counts.test_triangle();
-                if (auto hit = FilteredExact::intersect(ray, placed_.triangles[place])) {
-                    hit->triangle = references_[i];
-                    limit = found(*hit);
-                }
-            }
-            return limit;
+            return tests.in(node->first, node->count);
         };
         walk_orthtree(*nodes_, OctreeConfig::Walk::parametric, ray, counts, own);
     }

@@ -6,42 +6,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 #include <limits>
 
 namespace space::ch06 {
 namespace {
 
-std::string fixed(double value, int digits) {
-    if (std::abs(value) < 0.5 * std::pow(10.0, -digits)) value = 0.0;  // never "-0.0"
-    return fmt::format("{:.{}f}", value, digits);
-}
 std::string share(std::uint64_t part, std::uint64_t whole) {
     const double of_all = double(part) / double(whole);
     return part > 0 && of_all < 0.001 ? fmt::format("{:.4f} %", 100.0 * of_all) : percent(of_all);
 }
-
-/// A table whose last columns, the times, are there only where times are shown.
-class TimedTable {
-  public:
-    TimedTable(std::vector<std::string> counts, std::vector<std::string> times, bool shown)
-        : shown_(shown), table_(joined(std::move(counts), times)) {}
-    void row(std::vector<std::string> counts, const std::vector<std::string>& times) {
-        table_.row(joined(std::move(counts), times));
-    }
-    const Table& table() const { return table_; }
-
-  private:
-    std::vector<std::string> joined(std::vector<std::string> counts,
-                                    const std::vector<std::string>& times) const {
-        if (shown_) counts.insert(counts.end(), times.begin(), times.end());
-        return counts;
-    }
-
-    bool shown_;
-    Table table_;
-};
 
 // --- trees over triangles ---
 

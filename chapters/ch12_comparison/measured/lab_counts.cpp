@@ -25,7 +25,7 @@ Numbers count_lab() {
                  "tests per ray"});
     Progress progress("the lab's structures", structures().size());
     for (const Structure& structure : structures()) {
-        const BuiltStructure built = structure.variants.front().build(triangles, {});
+        const BuiltStructure built = structure.variants.front().build_from_triangles(triangles, {});
         const TraversalCounts work = built.count({.rays = rays, .hits = hits});
         const TreeShape shape = built.shape();  // as the rays leave it
         table.row({std::string(structure.name), count(shape.nodes), count(shape.leaves),

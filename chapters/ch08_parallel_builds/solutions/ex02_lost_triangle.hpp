@@ -1,0 +1,80 @@
+/// @file
+/// Exercise 8.2, our answer: both are notes that a task makes for its own later steps, so they are
+/// the task's.
+#pragma once
+
+#include "chapters/ch07_bounding_volume_hierarchies/bvh_boxes.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/top_down.hpp"
+#include "common/geometry.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace space {
+
+/// What all tasks of one build have in common.
+struct SharedBuilder {
+    static constexpr std::size_t most_boxes = 64;
+};
+
+/// Finds the cheapest cut of 2 to `most_boxes` boxes, and puts them in its order.
+class SweepTask {
+  public:
+    SweepTask(const SharedBuilder&, std::span<BvhReference<2>> range)
+        : range_(range), right_bounds_(range.size()) {}
+
+    /// Does the next of the task's steps. @return whether there are more
+    bool step() {
+        const int step = step_++;
+        if (step == 8) dimension_ = best_axis_;
+        if (step == 9) sort();
+        if (step >= 8) return step < 9;
+        if (step % 4 == 0) dimension_ = step / 4;
+        if (step % 4 == 1) sort();
+        if (step % 4 == 2) fill_right_bounds();
+        if (step % 4 == 3) sweep();
+        return true;
+    }
+    /// When all steps are done.
+    const BvhCut<2>& cut() const { return best_; }
+
+  private:
+    void sort() {
+        std::ranges::sort(range_, {}, [axis = dimension_](const BvhReference<2>& box) {
+            return std::pair(box.box.centroid()[axis], box.polygon);
+        });
+    }
+    void fill_right_bounds() {
+        BasicAabb<2> box;
+        for (std::size_t i = range_.size(); i-- > 0;) {
+            box.extend(range_[i].box);
+            right_bounds_[i] = box;
+        }
+    }
+    void sweep() {
+        BasicAabb<2> left;
+        for (std::size_t i = 1; i < range_.size(); ++i) {
+            left.extend(range_[i - 1].box);
+            const BasicAabb<2>& right = right_bounds_[i];
+            const double cost = double(left.half_area()) * double(i) +
+                                double(right.half_area()) * double(range_.size() - i);
+            if (cost >= best_cost_) continue;
+            best_cost_ = cost;
+            best_axis_ = dimension_;
+            best_ = {i, left, right};
+        }
+    }
+
+    std::span<BvhReference<2>> range_;
+    int dimension_ = 0;                       ///< the axis in hand
+    std::vector<BasicAabb<2>> right_bounds_;  ///< around box i and all after it
+    int step_ = 0;
+    int best_axis_ = 0;
+    double best_cost_ = infinity;
+    BvhCut<2> best_ = {};
+};
+
+}  // namespace space
