@@ -214,6 +214,22 @@ const space::Chapter space::this_chapter{\"${chapter}\", {}};
     endif()
 endfunction()
 
+# book_find_embree("what is left out without it")
+# In a chapter's CMakeLists.txt, after add_chapter: it is measured beside Embree 3 (Debian 12) or 4 (Debian 13), where that
+# is installed. Its files in measured/ see BOOK_HAS_EMBREE.
+function(book_find_embree what)
+    book_this_chapter()
+    foreach(version 4 3)
+        find_library(EMBREE_LIBRARY embree${version})
+    endforeach()
+    if(NOT EMBREE_LIBRARY)
+        book_left_out("${what}" "it is not installed (package libembree-dev)")
+    elseif(TARGET ${short}_measured)
+        target_link_libraries(${short}_measured PUBLIC ${EMBREE_LIBRARY})
+        target_compile_definitions(${short}_measured PRIVATE BOOK_HAS_EMBREE=1)
+    endif()
+endfunction()
+
 # add_figure(fig_01_03 drawing|rendering|chart "caption" [SLOW])
 # Names a figure that the chapter's program makes with --figure: by a function of that name in the chapter's namespace,
 #   Svg fig_01_03(const Options&), for a rendering Image fig_01_03(...), for a chart Chart fig_01_03(...),
