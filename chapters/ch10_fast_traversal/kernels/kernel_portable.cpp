@@ -1,0 +1,3 @@
+// The kernels for one instruction set; its CMakeLists.txt has the compiler's options.
+#define SPACE_ISA portable
+#include "chapters/ch10_fast_traversal/kernels/wide_kernel.hpp"

@@ -1,0 +1,202 @@
+/// @file
+/// The walk of one ray through a wide tree: the text of all kernels, compiled once for each
+/// instruction set.
+#pragma once
+
+#include "chapters/ch10_fast_traversal/kernels/leaf_filter.hpp"
+
+namespace space::SPACE_ISA {
+namespace {
+
+constexpr uint32_t leaf_bit = UINT32_C(1) << 31;
+constexpr size_t block_bytes = 160;
+
+/// What nodes need of a ray: by axis, where near and far rows begin in a node, in bytes.
+template <int N>
+struct NodeRay {
+    Floats<N> near_scale[3], near_shift[3], far_scale[3], far_shift[3], tmin;
+    size_t near_row[3], far_row[3];
+};
+template <int N>
+SPACE_INLINE NodeRay<N> node_ray_of(const KernelRay& ray) {
+    NodeRay<N> r;
+    for (int axis = 0; axis < 3; ++axis) {
+        r.near_scale[axis] = all<N>(ray.near_scale[axis]);
+        r.near_shift[axis] = all<N>(ray.near_shift[axis]);
+        r.far_scale[axis] = all<N>(ray.far_scale[axis]);
+        r.far_shift[axis] = all<N>(ray.far_shift[axis]);
+        r.near_row[axis] = ray.near_row[axis] * (4 * N);
+        r.far_row[axis] = ray.far_row[axis] * (4 * N);
+    }
+    r.tmin = all<N>(ray.tmin);
+    return r;
+}
+
+// [wide_slab]
+/// Which children the ray meets up to the limit, and where it enters each. (The last operand of
+/// `larger` is what it gives for two zeros: tmin, which is not -0.)
+template <int N>
+SPACE_INLINE unsigned met_children(const char* node, const NodeRay<N>& ray, Floats<N> limit,
+                                   Floats<N>& enter) {
+    Floats<N> near[3], far[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        near[axis] =
+            fused(load<N>(node + ray.near_row[axis]), ray.near_scale[axis], ray.near_shift[axis]);
+        far[axis] =
+            fused(load<N>(node + ray.far_row[axis]), ray.far_scale[axis], ray.far_shift[axis]);
+    }
+    enter = larger(larger(near[0], near[1]), larger(near[2], ray.tmin));
+    return at_most(enter, smaller(smaller(far[0], far[1]), smaller(far[2], limit)));
+}
+// [wide_slab]
+
+/// A child that waits, and where the ray enters it: one number, in whose order they are taken. (The
+/// bits of floats that are not negative grow with them.)
+SPACE_INLINE uint64_t waiting(float enter, uint32_t child) {
+    return uint64_t(__builtin_bit_cast(uint32_t, enter)) << 32 | child;
+}
+
+// [wide_order]
+/// The nearest of the met children; the others go onto the stack, the nearest on top.
+template <int N>
+SPACE_INLINE uint32_t nearest_of(const char* node, unsigned met, Floats<N> enter, uint64_t*& top) {
+    const uint32_t* const children = reinterpret_cast<const uint32_t*>(node + 24 * N);
+    const unsigned first = unsigned(__builtin_ctz(met));
+    met &= met - 1;
+    if (met == 0) return children[first];
+    const unsigned second = unsigned(__builtin_ctz(met));
+    met &= met - 1;
+    alignas(32) float enters[N];
+    *reinterpret_cast<Floats<N>*>(enters) = enter;
+    uint64_t a = waiting(enters[first], children[first]),
+             b = waiting(enters[second], children[second]);
+    if (b < a) {
+        const uint64_t c = a;
+        a = b;
+        b = c;
+    }
+    uint64_t* const bottom = top;
+    *top++ = b;
+    *top++ = a;
+    while (met != 0) {
+        const unsigned next = unsigned(__builtin_ctz(met));
+        met &= met - 1;
+        const uint64_t c = waiting(enters[next], children[next]);
+        uint64_t* place = top++;
+        for (; place != bottom && place[-1] < c; --place) *place = place[-1];
+        *place = c;
+    }
+    return uint32_t(*--top);
+}
+// [wide_order]
+
+/// The float that a limit is compared as with where boxes are entered: 6 u24 larger at least.
+SPACE_INLINE float box_limit(float limit) {
+    return limit * (1.0f + 0x1p-21f);
+}
+
+// [wide_walk]
+template <int N>
+SPACE_INLINE void closest_hit(const KernelTree& tree, const KernelRay& ray, KernelHit& best) {
+    const NodeRay<N> node_ray = node_ray_of<N>(ray);
+    LeafRay leaf_ray = leaf_ray_of(ray);
+    Floats<N> limit = all<N>(box_limit(ray.limit));
+    uint64_t* const bottom =
+        static_cast<uint64_t*>(__builtin_alloca(tree.stack_size * sizeof(uint64_t)));
+    uint64_t* top = bottom;
+    uint32_t child = tree.root;
+    for (;;) {
+        bool is_over = false;
+        while ((child & leaf_bit) == 0) {
+            const char* const node = tree.nodes + child * (size_t(N) * 32);
+            Floats<N> enter;
+            const unsigned met = met_children<N>(node, node_ray, limit, enter);
+            if (met == 0) {
+                is_over = true;
+                break;
+            }
+            child = nearest_of<N>(node, met, enter, top);
+        }
+        if (!is_over) {
+            const char* block = tree.blocks + (child & 0x0fffffff) * block_bytes;
+            for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, block += block_bytes) {
+                unsigned lanes = filter_leaf<false>(block, leaf_ray).may_hit;
+                if (lanes == 0) continue;
+                float ends;
+                do {
+                    ends = tree.exact(ray, reinterpret_cast<const float*>(block),
+                                      unsigned(__builtin_ctz(lanes)), best);
+                    lanes &= lanes - 1;
+                } while (lanes != 0);
+                set_limit(leaf_ray, ray, ends);
+                limit = all<N>(box_limit(ends));
+            }
+        }
+        const uint32_t limit_bits = __builtin_bit_cast(uint32_t, limit[0]);
+        do {
+            if (top == bottom) return;
+            --top;
+        } while (uint32_t(*top >> 32) > limit_bits);
+        child = uint32_t(*top);
+    }
+}
+// [wide_walk]
+
+// [wide_any]
+/// Any hit ends it, so the order matters less: the first child met is taken, the others wait.
+template <int N>
+SPACE_INLINE bool any_hit(const KernelTree& tree, const KernelRay& ray) {
+    const NodeRay<N> node_ray = node_ray_of<N>(ray);
+    const LeafRay leaf_ray = leaf_ray_of(ray);
+    const Floats<N> limit = all<N>(box_limit(ray.limit));
+    uint32_t* const bottom =
+        static_cast<uint32_t*>(__builtin_alloca(tree.stack_size * sizeof(uint32_t)));
+    uint32_t* top = bottom;
+    *top++ = tree.root;
+    while (top != bottom) {
+        const uint32_t child = *--top;
+        if ((child & leaf_bit) == 0) {
+            const char* const node = tree.nodes + child * (size_t(N) * 32);
+            const uint32_t* const children = reinterpret_cast<const uint32_t*>(node + 24 * N);
+            Floats<N> enter;
+            for (unsigned met = met_children<N>(node, node_ray, limit, enter); met != 0;
+                 met &= met - 1)
+                *top++ = children[__builtin_ctz(met)];
+            continue;
+        }
+        const char* block = tree.blocks + (child & 0x0fffffff) * block_bytes;
+        for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, block += block_bytes) {
+            const LeafLanes lanes = filter_leaf<true>(block, leaf_ray);
+            if (lanes.must_hit != 0) return true;
+            for (unsigned may = lanes.may_hit; may != 0; may &= may - 1) {
+                KernelHit hit{};
+                hit.triangle = no_kernel_hit;
+                tree.exact(ray, reinterpret_cast<const float*>(block), unsigned(__builtin_ctz(may)),
+                           hit);
+                if (hit.triangle != no_kernel_hit) return true;
+            }
+        }
+    }
+    return false;
+}
+// [wide_any]
+
+void closest4(const KernelTree& tree, const KernelRay& ray, KernelHit& best) {
+    closest_hit<4>(tree, ray, best);
+}
+void closest8(const KernelTree& tree, const KernelRay& ray, KernelHit& best) {
+    closest_hit<8>(tree, ray, best);
+}
+bool any4(const KernelTree& tree, const KernelRay& ray) {
+    return any_hit<4>(tree, ray);
+}
+bool any8(const KernelTree& tree, const KernelRay& ray) {
+    return any_hit<8>(tree, ray);
+}
+
+}  // namespace
+
+extern const KernelTable table4, table8;
+const KernelTable table4{closest4, any4}, table8{closest8, any8};
+
+}  // namespace space::SPACE_ISA
