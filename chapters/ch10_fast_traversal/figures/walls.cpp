@@ -44,6 +44,22 @@ template struct Walls<3>;
 template Walls<2> walls_on<2>(std::span<const Segment>);
 template Walls<3> walls_on<3>(std::span<const Segment>);
 
+namespace {
+/// Stretched, so that they fill the square up to a margin.
+std::vector<Segment> spread_out(std::vector<Segment> segments) {
+    constexpr float margin = 1.0f, size = static_cast<float>(heinonen_size) - 2.0f * margin;
+    Aabb2 box;
+    for (const Segment& segment : segments) {
+        box.extend(segment.a);
+        box.extend(segment.b);
+    }
+    for (Segment& segment : segments)
+        for (Point2* const p : {&segment.a, &segment.b})
+            *p = margin + size * (*p - box.min) / (box.max - box.min);
+    return segments;
+}
+}  // namespace
+
 std::vector<Segment> clustered_segments(std::uint64_t seed, int clusters, int in_each) {
     constexpr float cluster = 2.6f, length = 1.6f, size = static_cast<float>(heinonen_size);
     Pcg32 random(seed);
@@ -57,11 +73,10 @@ std::vector<Segment> clustered_segments(std::uint64_t seed, int clusters, int in
                 away[k] = k < 2 ? random.uniform(0.4f - cluster, cluster - 0.4f)
                                 : random.uniform(-length, length);
             const Point2 from(x + away[0], y + away[1]);
-            const Point2 to(glm::clamp(from + Vector2(away[2], away[3]), 0.3f, size - 0.3f));
-            segments.push_back({from, to});
+            segments.push_back({from, from + Vector2(away[2], away[3])});
         }
     }
-    return segments;
+    return spread_out(std::move(segments));
 }
 
 void draw_box_on(Svg& svg, const PlaneView& view, const Aabb2& box, double larger,
