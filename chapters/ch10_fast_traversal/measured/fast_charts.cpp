@@ -32,15 +32,17 @@ double mega_rays_per_second(double ns) {
     return 1e3 / ns;
 }
 
-/// A line for each scene over the rungs, which are numbered from 1 on.
+/// A line for each scene over the rungs, which are numbered from 1 on; Embree's are the last ones.
 template <class Value>
-std::vector<Series> rungs_by_scene(const std::vector<RungPoint>& ladder, const Value& value) {
+std::vector<Series> rungs_by_scene(const std::vector<RungPoint>& ladder, bool with_embree,
+                                   const Value& value) {
     std::vector<Series> lines;
     for (const std::string& scene : different(ladder, &RungPoint::scene)) {
         Series line{.name = scene, .x = {}, .y = {}};
         double rung = 0.0;
         for (const RungPoint& p : ladder) {
-            if (p.scene != scene || p.kind != diffuse_kind || is_embree(p.rung)) continue;
+            if (p.scene != scene || p.kind != diffuse_kind) continue;
+            if (is_embree(p.rung) && !with_embree) continue;
             line.x.push_back(++rung);
             line.y.push_back(value(p));
         }
@@ -57,7 +59,7 @@ Chart ladder_chart(const std::vector<RungPoint>& ladder) {
                 .y_label = "millions of diffuse rays per second",
                 .log_y = true,
                 .series = rungs_by_scene(
-                    ladder, [](const RungPoint& p) { return mega_rays_per_second(p.ns); })};
+                    ladder, false, [](const RungPoint& p) { return mega_rays_per_second(p.ns); })};
     const std::size_t scenes = chart.series.size();
     for (std::size_t i = 0; i < scenes; ++i) {
         const std::string scene = chart.series[i].name;
@@ -81,7 +83,7 @@ Chart ladder_exactness_chart(const std::vector<RungPoint>& ladder) {
             .x_label = "rung",
             .y_label = "wrong answers per million aimed rays; below 1: none",
             .log_y = true,
-            .series = rungs_by_scene(ladder, [](const RungPoint& p) {
+            .series = rungs_by_scene(ladder, true, [](const RungPoint& p) {
                 return std::max(p.wrong_per_million(), no_wrong_answer);
             })};
 }

@@ -11,7 +11,7 @@ namespace space::ch10 {
 
 /// Diffuse rays per second after each rung; a level line for the bound.
 Chart ladder_chart(const std::vector<RungPoint>& ladder);
-/// Wrong answers after each rung.
+/// Wrong answers after each rung, and of Embree's modes.
 Chart ladder_exactness_chart(const std::vector<RungPoint>& ladder);
 /// A load that waits, and one of many at once, against the working set.
 Chart latency_chart(const std::vector<MemoryPoint>& memory);
