@@ -60,19 +60,21 @@ class WideBvh {
                 .blocks = reinterpret_cast<const char*>(tree_.blocks.data()),
                 .root = tree_.root->word,
                 .stack_size = static_cast<std::uint32_t>(tree_.stack_size()),
-                .exact = exact_lane};
+                .largest = largest_,
+                .exact = exact_lane,
+                .prepare = prepare_kernel_floats};
     }
 
     // [fast_bvh_query]
     template <class Counts>
     std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
         if constexpr (std::same_as<Test, FilteredExact> && std::same_as<Counts, NoCounts>) {
-            if (KernelRay prepared; is_for_kernel(ray, prepared)) {
-                KernelHit best{};
-                best.triangle = no_kernel_hit;
-                table_->closest(kernel_tree(), prepared, best);
-                if (best.triangle == no_kernel_hit) return {};
-                return Hit{.t = best.t, .triangle = best.triangle, .u = best.u, .v = best.v};
+            if (table_ != nullptr && !tree_.empty()) {
+                KernelHit best = nothing_yet;
+                const KernelAnswer answer = table_->closest(kernel_tree(), floats_of(ray), best);
+                if (answer == kernel_miss) return {};
+                if (answer == kernel_hit)
+                    return Hit{.t = best.t, .triangle = best.triangle, .u = best.u, .v = best.v};
             }
         }
         return nearest_found([&](const auto& found) { search(ray, counts, found); });
@@ -80,9 +82,12 @@ class WideBvh {
 
     template <class Counts>
     bool any_hit(const Ray& ray, Counts& counts) const {
-        if constexpr (std::same_as<Test, FilteredExact> && std::same_as<Counts, NoCounts>)
-            if (KernelRay prepared; is_for_kernel(ray, prepared))
-                return table_->any(kernel_tree(), prepared);
+        if constexpr (std::same_as<Test, FilteredExact> && std::same_as<Counts, NoCounts>) {
+            if (table_ != nullptr && !tree_.empty()) {
+                const KernelAnswer answer = table_->any(kernel_tree(), floats_of(ray));
+                if (answer != kernel_refuses) return answer == kernel_hit;
+            }
+        }
         return is_any_found([&](const auto& found) { search(ray, counts, found); });
     }
     // [fast_bvh_query]
@@ -97,8 +102,9 @@ class WideBvh {
     }
 
   private:
-    bool is_for_kernel(const Ray& ray, KernelRay& prepared) const {
-        return table_ != nullptr && !tree_.empty() && prepare_kernel_ray(ray, largest_, prepared);
+    static const float* floats_of(const Ray& ray) {
+        static_assert(sizeof ray == 8 * sizeof(float));
+        return &ray.origin.x;
     }
     template <class Counts, class Found>
     void search(const Ray& ray, Counts& counts, const Found& found) const {

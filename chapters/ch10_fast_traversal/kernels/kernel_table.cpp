@@ -49,42 +49,28 @@ template const KernelTable* kernel_table<4>(InstructionSet);
 template const KernelTable* kernel_table<8>(InstructionSet);
 
 // [prepare_kernel_ray]
-/// Let u = 2^-24. A plane at p across an axis is met at T = (p - o) / d. The kernels compute
-/// t = p r - o r, where r = (1 / d) (1 + a), |a| <= u, with a fused multiply-add, or with a product
-/// and a sum.
+/// As chapter 2's SlabConservative, which proves it: with u = 2^-24 a t carries four roundings, of
+/// a difference, a reciprocal, its shortening (or lengthening) and a product, and (1 + u)^4 (1 - 4
+/// u) < 1 < (1 - u)^4 (1 + 6 u). A product below 2^-126 is off by 2^-150; far planes get 2^-120
+/// more. Nothing overflows: 2^-90 <= |d| <= 2^30, and coordinates are at most 2^30.
 ///
-/// With c, the product o r rounded, and a margin m that both are given: fused, t = (p r - o r (1 +
-/// b) -+ m) (1 + e), |b|, |e| <= u. So b costs at most u |o r|, whatever p is. Not fused, p r has a
-/// rounding of its own: u |p r| <= u |T| (1 + u) + u |o r|, which is a u more of T and of o r. The
-/// shift, c and m in one float, is rounded, too: u (|o r| + m). So m = 4 u |o r| covers all of that
-/// and the rounding of itself, and of T there are three factors of 1 +- u in each t: of r, of p r
-/// and of the sum. They shorten or lengthen t as chapter 2's reciprocals: (1 + u)^4 (1 - 6 u) < 1 <
-/// (1 - u)^4 (1 + 6 u), the fourth being that of the scale itself. A t that is to be at most the
-/// limit, a float, may be larger than it by u: 1 - 6 u serves for that, too.
+/// A fused multiply-add, p (1 / d) - o (1 / d), would be quicker by a subtraction, but o / d is
+/// rounded: that moves planes by as much as o's last bit, as a margin would have to. Half of the
+/// rays that leave a wall would then enter the wall's own boxes again.
 ///
-/// In space, m moves a plane by 4 u |o|: as much as the origin's own last bits. Near an axis, where
-/// r is large, that is still as little.
-///
-/// Products that underflow are off by 2^-149 at most: m is larger by 2^-140. Nothing overflows:
-/// |d| >= 2^-90, so |r| <= 2^90 and |p r| <= 2^120.
-///
-/// A ray that is parallel to the planes (d = 0) takes r = 2^90, with which products are exact, and
-/// for m a t beyond which it has left the box around all: inside the slab near planes then come
-/// before 0 and far ones after all that can be hit, outside of it by the smallest difference that
-/// floats have there, times 2^90, one does not.
+/// A ray that is parallel to the planes (d = 0) takes 2^90 for 1 / d and moves the planes outwards
+/// by a shift, which is at least four roundings of o, and so that 2^90 times it is more than any t
+/// at which the ray is still near the tree. Inside the slab near planes then come before 0 and far
+/// ones after all that can be hit.
 bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
     constexpr float u = 0x1p-24f, slowest = 0x1p-90f, fastest = 0x1p30f;
     if (!(ray.tmin >= 0.0f && ray.tmin <= ray.tmax && largest <= largest_kernel_float))
         return false;
     float length = 0.0f, speed = 0.0f, reach = largest;
-    bool is_parallel = false;
     for (int axis = 0; axis < 3; ++axis) {
         const float o = ray.origin[axis], d = ray.direction[axis], size = std::abs(d);
         if (!(std::abs(o) <= largest_kernel_float && size <= fastest)) return false;
-        if (!(size >= slowest)) {
-            if (d != 0.0f) return false;
-            is_parallel = true;
-        }
+        if (!(size >= slowest || d == 0.0f)) return false;
         reach = std::max(reach, std::abs(o));
         speed = std::max(speed, size);
         length += size;
@@ -96,18 +82,16 @@ bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
         const bool backwards = d < 0.0f;
         prepared.origin[axis] = o;
         prepared.direction[axis] = d;
-        prepared.near_scale[axis] = r * (1.0f - 6.0f * u);
+        prepared.near_origin[axis] = prepared.far_origin[axis] = o;
+        prepared.near_scale[axis] = r * (1.0f - 4.0f * u);
         prepared.far_scale[axis] = r * (1.0f + 6.0f * u);
-        const float near = o * prepared.near_scale[axis], far = o * prepared.far_scale[axis];
-        prepared.near_shift[axis] = -near - (4.0f * u * std::abs(near) + 0x1p-140f);
-        prepared.far_shift[axis] = (4.0f * u * std::abs(far) + 0x1p-140f) - far;
         prepared.near_row[axis] = std::uint32_t(axis + (backwards ? 3 : 0));
         prepared.far_row[axis] = std::uint32_t(axis + (backwards ? 0 : 3));
-        if (is_parallel && d == 0.0f) {
-            const float beyond = std::max(8.0f * reach / speed, 4.0f * u * std::abs(o) / slowest);
+        if (d == 0.0f) {  // on the fastest axis all lies before t = 2 reach / speed
+            const float shift = std::max(4.0f * u * std::abs(o), 8.0f * reach / speed * slowest);
+            prepared.near_origin[axis] = o + shift;
+            prepared.far_origin[axis] = o - shift;
             prepared.near_scale[axis] = prepared.far_scale[axis] = 1.0f / slowest;
-            prepared.near_shift[axis] = -o / slowest - beyond;
-            prepared.far_shift[axis] = -o / slowest + beyond;
         }
     }
     prepared.tmin = ray.tmin + 0.0f;  // not -0
@@ -118,8 +102,15 @@ bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
 }
 // [prepare_kernel_ray]
 
+bool prepare_kernel_floats(const float* ray, float largest, KernelRay& prepared) {
+    Ray all;
+    static_assert(sizeof all == 8 * sizeof(float));
+    std::memcpy(static_cast<void*>(&all), ray, sizeof all);
+    return prepare_kernel_ray(all, largest, prepared);
+}
+
 // [exact_lane]
-float exact_lane(const KernelRay& ray, const float* block, unsigned lane, KernelHit& best) {
+void exact_lane(const KernelRay& ray, const float* block, unsigned lane, KernelHit& best) {
     const auto corner = [&](unsigned c) {
         const float* const x = block + 3 * c * TriangleBlock::size + lane;
         return Point3(x[0], x[TriangleBlock::size], x[2 * TriangleBlock::size]);
@@ -131,13 +122,9 @@ float exact_lane(const KernelRay& ray, const float* block, unsigned lane, Kernel
                     ray.tmax};
     if (auto hit = FilteredExact::intersect(exact, triangle)) {
         std::memcpy(&hit->triangle, block + 9 * TriangleBlock::size + lane, sizeof hit->triangle);
-        if (best.triangle == no_kernel_hit ||
-            nearer(*hit, {.t = best.t, .triangle = best.triangle}))
+        if (nearer(*hit, {.t = best.t, .triangle = best.triangle}))
             best = {hit->t, hit->u, hit->v, hit->triangle};
     }
-    // A hit half a place farther may round to the same t and have the smaller index.
-    return best.triangle == no_kernel_hit ? ray.limit
-                                          : std::min(ray.limit, std::nextafter(best.t, infinity));
 }
 // [exact_lane]
 

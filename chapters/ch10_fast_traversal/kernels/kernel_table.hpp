@@ -19,7 +19,10 @@ inline constexpr float largest_kernel_float = 0x1p30f;
 /// then walk_wide_any takes it.
 bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared);
 
+/// The same of a ray's eight floats.
+bool prepare_kernel_floats(const float* ray, float largest, KernelRay& prepared);
+
 /// By FilteredExact.
-float exact_lane(const KernelRay& ray, const float* block, unsigned lane, KernelHit& best);
+void exact_lane(const KernelRay& ray, const float* block, unsigned lane, KernelHit& best);
 
 }  // namespace space

@@ -20,6 +20,8 @@ namespace {
 
 typedef float Float4 __attribute__((vector_size(16), may_alias));
 typedef float Float8 __attribute__((vector_size(32), may_alias));
+typedef double Double4 __attribute__((vector_size(32), may_alias));
+typedef int64_t Long4 __attribute__((vector_size(32), may_alias));
 typedef int32_t Int4 __attribute__((vector_size(16), may_alias));
 typedef int32_t Int8 __attribute__((vector_size(32), may_alias));
 
@@ -42,13 +44,38 @@ template <int N>
 using Ints = typename LanesOf<N>::Int;
 
 template <int N>
-SPACE_INLINE Floats<N> all(float x) {
-    return Floats<N>{} + x;
+SPACE_INLINE Floats<N> all(float x);
+template <>
+SPACE_INLINE Float4 all<4>(float x) {
+    return Float4{x, x, x, x};
+}
+template <>
+SPACE_INLINE Float8 all<8>(float x) {
+    return Float8{x, x, x, x, x, x, x, x};
 }
 /// From an address that is a multiple of their size.
 template <int N>
 SPACE_INLINE Floats<N> load(const void* place) {
     return *static_cast<const Floats<N>*>(place);
+}
+
+/// From and to any address.
+SPACE_INLINE Float4 load_any(const float* place) {
+    Float4 result;
+    __builtin_memcpy(&result, place, sizeof result);
+    return result;
+}
+SPACE_INLINE void store(float* place, Float4 a) {
+    __builtin_memcpy(place, &a, sizeof a);
+}
+SPACE_INLINE Double4 to_double(Float4 a) {
+    return __builtin_convertvector(a, Double4);
+}
+SPACE_INLINE Float4 to_float(Double4 a) {
+    return __builtin_convertvector(a, Float4);
+}
+SPACE_INLINE Double4 size_of(Double4 a) {
+    return Double4(Long4(a) & INT64_MAX);
 }
 
 #ifdef SPACE_X86
@@ -87,6 +114,18 @@ SPACE_INLINE unsigned are_numbers(Float4 a) {
 }
 #endif
 #ifdef __AVX2__
+SPACE_INLINE Double4 larger(Double4 a, Double4 b) {
+    return _mm256_max_pd(a, b);
+}
+#ifdef __AVX512VL__
+SPACE_INLINE unsigned above(Double4 a, Double4 b) {
+    return _mm256_cmp_pd_mask(a, b, _CMP_GT_OQ);
+}
+#else
+SPACE_INLINE unsigned above(Double4 a, Double4 b) {
+    return unsigned(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ)));
+}
+#endif
 SPACE_INLINE Float8 larger(Float8 a, Float8 b) {
     return _mm256_max_ps(a, b);
 }
@@ -99,6 +138,21 @@ SPACE_INLINE unsigned at_most(Float8 a, Float8 b) {
 }
 #endif
 #else
+typedef double Double2 __attribute__((vector_size(16), may_alias));
+SPACE_INLINE Double4 larger(Double4 a, Double4 b) {
+    const Double2 low = _mm_max_pd(__builtin_shufflevector(a, a, 0, 1),
+                                   __builtin_shufflevector(b, b, 0, 1)),
+                  high = _mm_max_pd(__builtin_shufflevector(a, a, 2, 3),
+                                    __builtin_shufflevector(b, b, 2, 3));
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+}
+SPACE_INLINE unsigned above(Double4 a, Double4 b) {
+    const Double2 low = _mm_cmpgt_pd(__builtin_shufflevector(a, a, 0, 1),
+                                     __builtin_shufflevector(b, b, 0, 1)),
+                  high = _mm_cmpgt_pd(__builtin_shufflevector(a, a, 2, 3),
+                                      __builtin_shufflevector(b, b, 2, 3));
+    return unsigned(_mm_movemask_pd(low)) | unsigned(_mm_movemask_pd(high)) << 2;
+}
 /// The halves of eight.
 struct Halves {
     Float4 low, high;
@@ -144,6 +198,11 @@ SPACE_INLINE Float4 fused_minus(Float4 a, Float4 b, Float4 c) {
 }
 #endif
 
+/// Bits of the lanes with the sign minus.
+SPACE_INLINE unsigned below_zero(Float4 a) {
+    return unsigned(_mm_movemask_ps(a));
+}
+
 #else  // any processor
 
 template <class Lanes>
@@ -170,6 +229,9 @@ SPACE_INLINE unsigned bits_of_lanes(Lanes truths) {
     for (int i = 0; i < N; ++i) bits |= (unsigned(truths[i]) & 1u) << i;
     return bits;
 }
+SPACE_INLINE unsigned below_zero(Float4 a) {
+    return bits_of_lanes<4>(a < 0.0f);
+}
 SPACE_INLINE unsigned at_most(Float4 a, Float4 b) {
     return bits_of_lanes<4>(a <= b);
 }
@@ -177,6 +239,9 @@ SPACE_INLINE unsigned at_most(Float8 a, Float8 b) {
     return bits_of_lanes<8>(a <= b);
 }
 SPACE_INLINE unsigned above(Float4 a, Float4 b) {
+    return bits_of_lanes<4>(a > b);
+}
+SPACE_INLINE unsigned above(Double4 a, Double4 b) {
     return bits_of_lanes<4>(a > b);
 }
 SPACE_INLINE unsigned are_numbers(Float4 a) {

@@ -8,29 +8,6 @@
 namespace space::SPACE_ISA {
 namespace {
 
-/// What a leaf needs of a ray.
-struct LeafRay {
-    Float4 origin[3], direction[3];
-    Float4 length10;  ///< 10 u times the size of the direction
-    Float4 tmin, limit, tmin_length, limit_length;
-};
-SPACE_INLINE void set_limit(LeafRay& leaf_ray, const KernelRay& ray, float limit) {
-    leaf_ray.limit = all<4>(limit);
-    leaf_ray.limit_length = all<4>(limit * ray.direction_length);
-}
-SPACE_INLINE LeafRay leaf_ray_of(const KernelRay& ray) {
-    LeafRay r;
-    for (int axis = 0; axis < 3; ++axis) {
-        r.origin[axis] = all<4>(ray.origin[axis]);
-        r.direction[axis] = all<4>(ray.direction[axis]);
-    }
-    r.length10 = all<4>(ray.direction_length * (10.0f * 0x1p-24f));
-    r.tmin = all<4>(ray.tmin);
-    r.tmin_length = all<4>(ray.tmin * ray.direction_length);
-    set_limit(r, ray, ray.limit);
-    return r;
-}
-
 /// What is undecided about four triangles, and what is sure.
 struct LeafLanes {
     unsigned may_hit;   ///< bits of the lanes that are not surely missed
@@ -72,34 +49,37 @@ SPACE_INLINE Float4 signed_by(Float4 x, Float4 sign) {
 /// Coordinates are below 2^31 here, and products below 2^100; one that underflows is off by 2^-149
 /// times at most 2^33: that is the last term of the bounds, 2^-110.
 template <bool is_sure_asked>
-SPACE_INLINE LeafLanes filter_leaf(const char* block, const LeafRay& ray) {
-    Float4 a[3], e1[3], e2[3], s[3], p[3], q[3];
+SPACE_INLINE LeafLanes filter_leaf(const char* block, const KernelRay& ray, float limit) {
+    Float4 a[3], e1[3], e2[3], s[3], d[3], p[3], q[3];
     for (int axis = 0; axis < 3; ++axis) {
         a[axis] = load<4>(block + 16 * axis);
         e1[axis] = load<4>(block + 16 * (axis + 3)) - a[axis];
         e2[axis] = load<4>(block + 16 * (axis + 6)) - a[axis];
-        s[axis] = ray.origin[axis] - a[axis];
+        s[axis] = all<4>(ray.origin[axis]) - a[axis];
+        d[axis] = all<4>(ray.direction[axis]);
     }
-    cross(ray.direction, e2, p);
+    cross(d, e2, p);
     cross(s, e1, q);
-    const Float4 det = dot(p, e1), u = signed_by(dot(p, s), det),
-                 v = signed_by(dot(q, ray.direction), det), t = signed_by(dot(q, e2), det);
+    const Float4 det = dot(p, e1), u = signed_by(dot(p, s), det), v = signed_by(dot(q, d), det),
+                 t = signed_by(dot(q, e2), det);
     const Float4 size = size_of(det), tiny = all<4>(0x1p-110f);
     const Float4 n1 = one_norm(e1), n2 = one_norm(e2), n = one_norm(s), n12 = n1 * n2;
-    const Float4 bound = fused(fused(n1 + n2, n, n12), ray.length10, tiny);
+    const Float4 bound =
+        fused(fused(n1 + n2, n, n12), all<4>(ray.direction_length * (10.0f * 0x1p-24f)), tiny);
     const Float4 n12_10 = n12 * (10.0f * 0x1p-24f);
-    const Float4 late = fused(n12_10, n + ray.limit_length, tiny),
-                 early = fused(n12_10, n + ray.tmin_length, tiny);
+    const Float4 late = fused(n12_10, n + all<4>(limit * ray.direction_length), tiny),
+                 early = fused(n12_10, n + all<4>(ray.tmin * ray.direction_length), tiny);
 
     const Float4 w = size - (u + v), inside = smaller(smaller(u, v), w);
-    const Float4 after = t - fused(size, ray.limit, late), before = fused(size, ray.tmin, -t);
+    const Float4 after = t - fused(size, all<4>(limit), late),
+                 before = fused(size, all<4>(ray.tmin), -t);
     // Where the limit is infinite and det is 0, `after` is not a number, and not above the bound.
     const unsigned missed = above(larger(after, -inside - bound), all<4>(0.0f)) |
                             (above(before, early) & above(size, bound));
     LeafLanes lanes{are_numbers(a[0]) & ~missed, 0};
     if (is_sure_asked)
         lanes.must_hit = above(smaller(inside, size), bound) & above(-before, early) &
-                         above(fused(size, ray.limit, -t), late);
+                         above(fused(size, all<4>(limit), -t), late);
     return lanes;
 }
 // [leaf_filter]

@@ -3,6 +3,7 @@
 /// instruction set.
 #pragma once
 
+#include "chapters/ch10_fast_traversal/kernels/exact_lanes.hpp"
 #include "chapters/ch10_fast_traversal/kernels/leaf_filter.hpp"
 
 namespace space::SPACE_ISA {
@@ -14,7 +15,7 @@ constexpr size_t block_bytes = 160;
 /// What nodes need of a ray: by axis, where near and far rows begin in a node, in bytes.
 template <int N>
 struct NodeRay {
-    Floats<N> near_scale[3], near_shift[3], far_scale[3], far_shift[3], tmin;
+    Floats<N> near_origin[3], near_scale[3], far_origin[3], far_scale[3], tmin;
     size_t near_row[3], far_row[3];
 };
 template <int N>
@@ -22,9 +23,9 @@ SPACE_INLINE NodeRay<N> node_ray_of(const KernelRay& ray) {
     NodeRay<N> r;
     for (int axis = 0; axis < 3; ++axis) {
         r.near_scale[axis] = all<N>(ray.near_scale[axis]);
-        r.near_shift[axis] = all<N>(ray.near_shift[axis]);
+        r.near_origin[axis] = all<N>(ray.near_origin[axis]);
         r.far_scale[axis] = all<N>(ray.far_scale[axis]);
-        r.far_shift[axis] = all<N>(ray.far_shift[axis]);
+        r.far_origin[axis] = all<N>(ray.far_origin[axis]);
         r.near_row[axis] = ray.near_row[axis] * (4 * N);
         r.far_row[axis] = ray.far_row[axis] * (4 * N);
     }
@@ -32,18 +33,57 @@ SPACE_INLINE NodeRay<N> node_ray_of(const KernelRay& ray) {
     return r;
 }
 
+/// The float after t, which is not negative.
+SPACE_INLINE float float_after(float t) {
+    return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, t + 0.0f) + 1);
+}
+
+// [prepared]
+/// As prepare_kernel_ray, all axes at once; that one is asked about what is rare: rays that are
+/// parallel to an axis, and those that kernels refuse.
+SPACE_INLINE bool prepared(const KernelTree& tree, const float* ray, KernelRay& result) {
+    constexpr float u = 0x1p-24f;
+    const Float4 o = load_any(ray), d = load_any(ray + 3), speed = size_of(d);  // and a float more
+    const float tmin = ray[6], tmax = ray[7];
+    const unsigned is_usual = at_most(size_of(o), all<4>(0x1p30f)) &
+                              at_most(speed, all<4>(0x1p30f)) & at_most(all<4>(0x1p-90f), speed) &
+                              7;
+    if (!(is_usual == 7 && tmin >= 0.0f && tmin <= tmax && tree.largest <= 0x1p30f))
+        return tree.prepare(ray, tree.largest, result);
+    const Float4 r = 1.0f / d;
+    store(result.origin, o);
+    store(result.direction, d);
+    store(result.near_origin, o);
+    store(result.near_scale, r * (1.0f - 4.0f * u));
+    store(result.far_origin, o);
+    store(result.far_scale, r * (1.0f + 6.0f * u));
+    const unsigned backwards = below_zero(d);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const unsigned turned = (backwards >> axis & 1u) * 3;
+        result.near_row[axis] = axis + turned;
+        result.far_row[axis] = axis + 3 - turned;
+    }
+    result.tmin = tmin + 0.0f;
+    result.tmax = tmax;
+    result.limit = tmax < __builtin_inff() ? float_after(tmax) : tmax;
+    result.direction_length = speed[0] + speed[1] + speed[2];
+    return true;
+}
+// [prepared]
+
 // [wide_slab]
 /// Which children the ray meets up to the limit, and where it enters each. (The last operand of
 /// `larger` is what it gives for two zeros: tmin, which is not -0.)
 template <int N>
 SPACE_INLINE unsigned met_children(const char* node, const NodeRay<N>& ray, Floats<N> limit,
                                    Floats<N>& enter) {
+    const Floats<N> tiny = all<N>(0x1p-120f);
     Floats<N> near[3], far[3];
     for (int axis = 0; axis < 3; ++axis) {
         near[axis] =
-            fused(load<N>(node + ray.near_row[axis]), ray.near_scale[axis], ray.near_shift[axis]);
-        far[axis] =
-            fused(load<N>(node + ray.far_row[axis]), ray.far_scale[axis], ray.far_shift[axis]);
+            (load<N>(node + ray.near_row[axis]) - ray.near_origin[axis]) * ray.near_scale[axis];
+        far[axis] = fused(load<N>(node + ray.far_row[axis]) - ray.far_origin[axis],
+                          ray.far_scale[axis], tiny);
     }
     enter = larger(larger(near[0], near[1]), larger(near[2], ray.tmin));
     return at_most(enter, smaller(smaller(far[0], far[1]), smaller(far[2], limit)));
@@ -95,11 +135,49 @@ SPACE_INLINE float box_limit(float limit) {
     return limit * (1.0f + 0x1p-21f);
 }
 
+// [leaf_closest]
+/// Puts the lanes that the filter has left to the exact test, and keeps the nearest hit; of equal t
+/// that of the smaller index. @return the t beyond which nothing matters any more: a hit half a
+/// place farther may round to the same t.
+SPACE_INLINE float take_hits(const KernelTree& tree, const KernelRay& ray, const char* block,
+                             unsigned lanes, KernelHit& best) {
+    const ExactLanes exact = exact_lanes(block, ray);
+    for (unsigned hit = lanes & exact.hit; hit != 0; hit &= hit - 1) {
+        const int lane = __builtin_ctz(hit);
+        const uint32_t index = reinterpret_cast<const uint32_t*>(block + 144)[lane];
+        const float t = exact.t[lane];
+        if (t < best.t || (t == best.t && index < best.triangle))
+            best = {t, exact.u[lane], exact.v[lane], index};
+    }
+    for (unsigned rare = lanes & exact.undecided; rare != 0; rare &= rare - 1)
+        tree.exact(ray, reinterpret_cast<const float*>(block), unsigned(__builtin_ctz(rare)), best);
+    const float after = float_after(best.t);
+    return best.triangle != no_kernel_hit && after < ray.limit ? after : ray.limit;
+}
+// [leaf_closest]
+
+// [leaf_any]
+SPACE_INLINE bool is_any_hit(const KernelTree& tree, const KernelRay& ray, const char* block,
+                             unsigned lanes) {
+    const ExactLanes exact = exact_lanes(block, ray);
+    if ((lanes & exact.hit) != 0) return true;
+    for (unsigned rare = lanes & exact.undecided; rare != 0; rare &= rare - 1) {
+        KernelHit hit = nothing_yet;
+        tree.exact(ray, reinterpret_cast<const float*>(block), unsigned(__builtin_ctz(rare)), hit);
+        if (hit.triangle != no_kernel_hit) return true;
+    }
+    return false;
+}
+// [leaf_any]
+
 // [wide_walk]
 template <int N>
-SPACE_INLINE void closest_hit(const KernelTree& tree, const KernelRay& ray, KernelHit& best) {
+SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* floats,
+                                      KernelHit& best) {
+    KernelRay ray;
+    if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
-    LeafRay leaf_ray = leaf_ray_of(ray);
+    float ends = ray.limit;
     Floats<N> limit = all<N>(box_limit(ray.limit));
     uint64_t* const bottom =
         static_cast<uint64_t*>(__builtin_alloca(tree.stack_size * sizeof(uint64_t)));
@@ -120,21 +198,15 @@ SPACE_INLINE void closest_hit(const KernelTree& tree, const KernelRay& ray, Kern
         if (!is_over) {
             const char* block = tree.blocks + (child & 0x0fffffff) * block_bytes;
             for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, block += block_bytes) {
-                unsigned lanes = filter_leaf<false>(block, leaf_ray).may_hit;
+                const unsigned lanes = filter_leaf<false>(block, ray, ends).may_hit;
                 if (lanes == 0) continue;
-                float ends;
-                do {
-                    ends = tree.exact(ray, reinterpret_cast<const float*>(block),
-                                      unsigned(__builtin_ctz(lanes)), best);
-                    lanes &= lanes - 1;
-                } while (lanes != 0);
-                set_limit(leaf_ray, ray, ends);
+                ends = take_hits(tree, ray, block, lanes, best);
                 limit = all<N>(box_limit(ends));
             }
         }
         const uint32_t limit_bits = __builtin_bit_cast(uint32_t, limit[0]);
         do {
-            if (top == bottom) return;
+            if (top == bottom) return best.triangle != no_kernel_hit ? kernel_hit : kernel_miss;
             --top;
         } while (uint32_t(*top >> 32) > limit_bits);
         child = uint32_t(*top);
@@ -145,9 +217,10 @@ SPACE_INLINE void closest_hit(const KernelTree& tree, const KernelRay& ray, Kern
 // [wide_any]
 /// Any hit ends it, so the order matters less: the first child met is taken, the others wait.
 template <int N>
-SPACE_INLINE bool any_hit(const KernelTree& tree, const KernelRay& ray) {
+SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
+    KernelRay ray;
+    if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
-    const LeafRay leaf_ray = leaf_ray_of(ray);
     const Floats<N> limit = all<N>(box_limit(ray.limit));
     uint32_t* const bottom =
         static_cast<uint32_t*>(__builtin_alloca(tree.stack_size * sizeof(uint32_t)));
@@ -166,31 +239,26 @@ SPACE_INLINE bool any_hit(const KernelTree& tree, const KernelRay& ray) {
         }
         const char* block = tree.blocks + (child & 0x0fffffff) * block_bytes;
         for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, block += block_bytes) {
-            const LeafLanes lanes = filter_leaf<true>(block, leaf_ray);
-            if (lanes.must_hit != 0) return true;
-            for (unsigned may = lanes.may_hit; may != 0; may &= may - 1) {
-                KernelHit hit{};
-                hit.triangle = no_kernel_hit;
-                tree.exact(ray, reinterpret_cast<const float*>(block), unsigned(__builtin_ctz(may)),
-                           hit);
-                if (hit.triangle != no_kernel_hit) return true;
-            }
+            const LeafLanes lanes = filter_leaf<true>(block, ray, ray.limit);
+            if (lanes.must_hit != 0) return kernel_hit;
+            if (lanes.may_hit != 0 && is_any_hit(tree, ray, block, lanes.may_hit))
+                return kernel_hit;
         }
     }
-    return false;
+    return kernel_miss;
 }
 // [wide_any]
 
-void closest4(const KernelTree& tree, const KernelRay& ray, KernelHit& best) {
-    closest_hit<4>(tree, ray, best);
+KernelAnswer closest4(const KernelTree& tree, const float* ray, KernelHit& best) {
+    return closest_hit<4>(tree, ray, best);
 }
-void closest8(const KernelTree& tree, const KernelRay& ray, KernelHit& best) {
-    closest_hit<8>(tree, ray, best);
+KernelAnswer closest8(const KernelTree& tree, const float* ray, KernelHit& best) {
+    return closest_hit<8>(tree, ray, best);
 }
-bool any4(const KernelTree& tree, const KernelRay& ray) {
+KernelAnswer any4(const KernelTree& tree, const float* ray) {
     return any_hit<4>(tree, ray);
 }
-bool any8(const KernelTree& tree, const KernelRay& ray) {
+KernelAnswer any8(const KernelTree& tree, const float* ray) {
     return any_hit<8>(tree, ray);
 }
 
