@@ -1,0 +1,98 @@
+/// @file
+/// What is wrong with a wide tree, in words.
+#pragma once
+
+#include "chapters/ch10_fast_traversal/wide_tree.hpp"
+#include "common/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace space {
+
+/// Empty for a whole tree: each finite triangle in at least one block and as it was given; boxes
+/// around all that is below; empty places that nothing meets; depth, leaves, references and the
+/// stack's size as they are counted.
+template <int N>
+std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> triangles) {
+    struct Waiting {
+        WideChild child;
+        Aabb box;
+        unsigned depth;
+    };
+    const auto is_whole = [&](const Triangle& t) { return !box_if_finite<3>(t).is_empty(); };
+    if (tree.empty())
+        return std::ranges::any_of(triangles, is_whole) ? "an empty tree over triangles" : "";
+    std::vector<unsigned> named(triangles.size()), node_used(tree.nodes.size()),
+        block_used(tree.blocks.size());
+    std::vector<Waiting> waiting{{*tree.root, tree.box, 0}};
+    unsigned depth = 0;
+    std::size_t leaves = 0, references = 0;
+    while (!waiting.empty()) {
+        const auto [child, box, level] = waiting.back();
+        waiting.pop_back();
+        depth = std::max(depth, level);
+        if (!child.is_leaf()) {
+            if (child.index() >= tree.nodes.size()) return "a child that is no node";
+            if (node_used[child.index()]++ != 0) return "a node with two parents";
+            const WideNode<N>& node = tree.nodes[child.index()];
+            std::size_t used = 0;
+            for (std::size_t i = 0; i < N; ++i) {
+                const Aabb of_child = node.box(i);
+                if (!node.is_used(i)) {
+                    for (int axis = 0; axis < 3; ++axis)
+                        if (of_child.min[axis] != infinity || of_child.max[axis] != -infinity)
+                            return fmt::format("node {}: place {} is empty and can be met",
+                                               child.index(), i);
+                    continue;
+                }
+                ++used;
+                if (!box.contains(of_child))
+                    return fmt::format("node {}: child {} exceeds it", child.index(), i);
+                waiting.push_back({node.children[i], of_child, level + 1});
+            }
+            if (used < 2) return fmt::format("node {}: {} children", child.index(), used);
+            continue;
+        }
+        ++leaves;
+        for (std::uint32_t b = child.first(); b < child.first() + child.count(); ++b) {
+            if (b >= tree.blocks.size()) return "a leaf beyond the blocks";
+            if (block_used[b]++ != 0) return "a block in two leaves";
+            const TriangleBlock& block = tree.blocks[b];
+            bool ended = false;
+            for (std::size_t lane = 0; lane < TriangleBlock::size; ++lane) {
+                if (!block.is_used(lane)) {
+                    ended = true;
+                    if (!std::isnan(block.triangle(lane).a.x)) return "an empty lane with a corner";
+                    continue;
+                }
+                if (ended) return "a triangle after an empty lane";
+                const std::uint32_t index = block.indices[lane];
+                if (index >= triangles.size()) return "a triangle that is none";
+                if (!(block.triangle(lane) == triangles[index]))
+                    return fmt::format("triangle {} has changed", index);
+                ++references;
+                ++named[index];
+            }
+            if (!block.is_used(0)) return "a block of nothing";
+        }
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        if ((named[i] > 0) != is_whole(triangles[i]))
+            return fmt::format("triangle {}: in {} blocks", i, named[i]);
+    if (depth != tree.depth) return fmt::format("depth {}, not {}", tree.depth, depth);
+    if (leaves != tree.leaves) return fmt::format("{} leaves, not {}", tree.leaves, leaves);
+    if (references != tree.references) return "another number of references";
+    if (std::ranges::count(node_used, 0u) != 0) return "a node without a parent";
+    if (std::ranges::count(block_used, 0u) != 0) return "a block without a leaf";
+    return tree.stack_size() < std::size_t(depth) * (N - 1) + 1 ? "too small a stack" : "";
+}
+
+}  // namespace space
