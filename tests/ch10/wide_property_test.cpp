@@ -8,6 +8,7 @@
 #include "tests/ch10/every_kernel.hpp"
 #include "tests/ch10/wide_faults.hpp"
 
+#include <fmt/format.h>
 #include <rapidcheck.h>
 
 #include <cstdlib>
@@ -67,6 +68,13 @@ std::vector<Ray> some_rays(const SomePoint& point) {
     return rays;
 }
 
+std::string text(const Point3& p) {
+    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
+}
+std::string text(const std::optional<Hit>& hit) {
+    return hit ? fmt::format("{} at {}", hit->triangle, hit->t) : "no hit";
+}
+
 template <class SomePoint>
 void check_property(const SomePoint& point) {
     const auto triangles = some_triangles(point);
@@ -79,10 +87,15 @@ void check_property(const SomePoint& point) {
         *rc::gen::element(CollapseConfig::Way::least_cost, CollapseConfig::Way::greedy);
     const auto node_cost = double(*rc::gen::inRange(0, 4));
     const CollapseConfig collapse{.way = way, .node_cost = node_cost, .max_leaf = leaf};
-    const auto check = [&](const auto& bvh, const std::string&) {
+    const auto check = [&](const auto& bvh, const std::string& name) {
         RC_ASSERT(wide_faults(bvh.tree(), triangles) == "");
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            RC_ASSERT(closest_hit(bvh, rays[i]) == expected[i]);
+            if (const auto got = closest_hit(bvh, rays[i]); got != expected[i]) {
+                for (const Triangle& t : triangles) RC_LOG() << text(t.a) << text(t.b) << text(t.c);
+                RC_LOG() << name << ": " << text(rays[i].origin) << text(rays[i].direction)
+                         << rays[i].tmin << " to " << rays[i].tmax;
+                RC_FAIL("got " + text(got) + ", should be " + text(expected[i]));
+            }
             RC_ASSERT(any_hit(bvh, rays[i]) == expected[i].has_value());
         }
     };
