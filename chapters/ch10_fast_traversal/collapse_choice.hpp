@@ -36,7 +36,7 @@ class CollapseChoice {
     /// Of the part of the tree below one node. places = 1 .. N.
     struct Row {
         /// cost[i - 1]: the least of all ways to hang what is below into at most i places of a node
-        /// above; times the root's weight.
+        /// above.
         std::array<float, N> cost;
         /// opened[i - 1]: how many of i places are really used, 1 where the node itself takes one.
         std::array<std::uint8_t, N> opened;
@@ -59,7 +59,7 @@ class CollapseChoice {
         }
     }
     const Row& row(std::uint32_t node) const { return rows_[node]; }
-    double cost() const { return double{rows_[0].cost[0]} / chance_.whole(); }
+    double cost() const { return double{rows_[0].cost[0]}; }
 
     /// The nodes of the binary tree that become the children of the wide node made of this one, in
     /// the tree's order.
@@ -84,7 +84,7 @@ class CollapseChoice {
     void choose(std::uint32_t index) {
         const BvhNode<D>& node = tree_.nodes[index];
         Row& row = rows_[index];
-        const auto weight = static_cast<float>(chance_.weight(node.box));
+        const auto weight = static_cast<float>(chance_(node.box));
         row.references = node.is_leaf()
                              ? node.count
                              : rows_[node.first].references + rows_[node.first + 1].references;

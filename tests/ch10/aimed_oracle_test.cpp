@@ -124,7 +124,8 @@ void check_scene(const std::string& scene, const std::vector<Triangle>& triangle
     const WideBvhConfig<SpatialSplitBuilder> cut{.binary = {.min_overlap = 0.0, .max_growth = 2.0}};
     for_each_kernel<SpatialSplitBuilder>(
         triangles, [&](const auto& bvh, const std::string&) { check(bvh, rays); }, cut);
-    const auto hits = std::ranges::count_if(rays, [](const auto& r) { return r.nearest; });
+    const auto hits =
+        std::ranges::count_if(rays, [](const auto& r) { return r.nearest.has_value(); });
     fmt::print("  {}: {} triangles, {} rays, {} hits, no wrong answer\n", scene, triangles.size(),
                rays.size(), hits);
     CHECK(hits > 0);

@@ -43,9 +43,11 @@ std::size_t check_kernels(const std::vector<Triangle>& triangles, const std::vec
         triangles,
         [&](const auto& bvh, const std::string&) {
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                CAPTURE(i);
-                REQUIRE(closest_hit(bvh, rays[i]) == expected[i]);
-                REQUIRE(any_hit(bvh, rays[i]) == expected[i].has_value());
+                if (closest_hit(bvh, rays[i]) == expected[i] &&
+                    any_hit(bvh, rays[i]) == expected[i].has_value())
+                    continue;
+                CAPTURE(i, expected[i].has_value(), any_hit(bvh, rays[i]));
+                FAIL("another answer than the naive loop's");
             }
         },
         config);
@@ -109,8 +111,7 @@ bool is_met_by(const BoxCase& c, const Place& place) {
 
 }  // namespace
 
-TEST_CASE(
-    "slabs: plain, fused, and lengthened planes lose boxes; a margin for the origin does not") {
+TEST_CASE("slabs: plain and fused planes lose boxes, lengthened fused ones too; ours lose none") {
     for (const float away : {3.0f, 30.0f}) {
         Pcg32 random(1);
         std::size_t met = 0, plain = 0, fused = 0, lengthened = 0, kernel = 0;
@@ -131,8 +132,8 @@ TEST_CASE(
             KernelRay ray{};
             REQUIRE(prepare_kernel_ray(c.ray, 1.0f, ray));
             kernel += !is_met_by(c, [&](float p, int axis, bool is_near) {
-                return is_near ? std::fma(p, ray.near_scale[axis], ray.near_shift[axis])
-                               : std::fma(p, ray.far_scale[axis], ray.far_shift[axis]);
+                return is_near ? (p - ray.near_origin[axis]) * ray.near_scale[axis]
+                               : (p - ray.far_origin[axis]) * ray.far_scale[axis];
             });
         }
         fmt::print(

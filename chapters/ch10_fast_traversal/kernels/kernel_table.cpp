@@ -96,6 +96,7 @@ bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
     }
     prepared.tmin = ray.tmin + 0.0f;  // not -0
     prepared.tmax = ray.tmax;
+    prepared.before = std::nextafter(ray.tmin, -infinity);
     prepared.limit = std::nextafter(ray.tmax, infinity);
     prepared.direction_length = length;
     return true;

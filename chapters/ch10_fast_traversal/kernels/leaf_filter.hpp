@@ -31,6 +31,13 @@ SPACE_INLINE Float4 signed_by(Float4 x, Float4 sign) {
 }
 
 // [leaf_filter]
+/// Of four triangles, turned so that det is not negative, and above what these may be wrong by.
+struct LeafVolumes {
+    Float4 size, u, v, t;  ///< det, u det, v det and t det of the exact test, in floats
+    Float4 bound;          ///< of u and v, and of size - (u + v), as signs are asked for
+    Float4 late, early;    ///< of t against size times the limit, and against size times tmin
+};
+
 /// The volumes det, u, v and T = t det of chapter 2's filter, in floats: with u24 = 2^-24 in place
 /// of 2^-53 its count of roundings is the same, except that the three edges are rounded here, which
 /// it has counted, too. Each of det, u and v is off by at most gamma(7) times |d||e1||e2|,
@@ -46,40 +53,51 @@ SPACE_INLINE Float4 signed_by(Float4 x, Float4 sign) {
 /// the other sign of det a T above all that is a t below 0. But a T below 0 would then be a t above
 /// 0: so a triangle behind tmin is missed only where det is above the bound.
 ///
+/// A hit's t, rounded, is between tmin and tmax: so t itself is between the float before tmin and
+/// the one after tmax, the limit. (Next to tmin = 0 that is more than a rounding of t.)
+///
 /// Coordinates are below 2^31 here, and products below 2^100; one that underflows is off by 2^-149
 /// times at most 2^33: that is the last term of the bounds, 2^-110.
-template <bool is_sure_asked>
-SPACE_INLINE LeafLanes filter_leaf(const char* block, const KernelRay& ray, float limit) {
-    Float4 a[3], e1[3], e2[3], s[3], d[3], p[3], q[3];
+SPACE_INLINE LeafVolumes volumes_of(const char* block, const KernelRay& ray, float limit) {
+    Float4 e1[3], e2[3], s[3], d[3], p[3], q[3];
     for (int axis = 0; axis < 3; ++axis) {
-        a[axis] = load<4>(block + 16 * axis);
-        e1[axis] = load<4>(block + 16 * (axis + 3)) - a[axis];
-        e2[axis] = load<4>(block + 16 * (axis + 6)) - a[axis];
-        s[axis] = all<4>(ray.origin[axis]) - a[axis];
+        const Float4 a = load<4>(block + 16 * axis);
+        e1[axis] = load<4>(block + 16 * (axis + 3)) - a;
+        e2[axis] = load<4>(block + 16 * (axis + 6)) - a;
+        s[axis] = all<4>(ray.origin[axis]) - a;
         d[axis] = all<4>(ray.direction[axis]);
     }
     cross(d, e2, p);
     cross(s, e1, q);
-    const Float4 det = dot(p, e1), u = signed_by(dot(p, s), det), v = signed_by(dot(q, d), det),
-                 t = signed_by(dot(q, e2), det);
-    const Float4 size = size_of(det), tiny = all<4>(0x1p-110f);
+    const Float4 det = dot(p, e1), tiny = all<4>(0x1p-110f);
     const Float4 n1 = one_norm(e1), n2 = one_norm(e2), n = one_norm(s), n12 = n1 * n2;
-    const Float4 bound =
-        fused(fused(n1 + n2, n, n12), all<4>(ray.direction_length * (10.0f * 0x1p-24f)), tiny);
-    const Float4 n12_10 = n12 * (10.0f * 0x1p-24f);
-    const Float4 late = fused(n12_10, n + all<4>(limit * ray.direction_length), tiny),
-                 early = fused(n12_10, n + all<4>(ray.tmin * ray.direction_length), tiny);
+    const Float4 n12_10 = n12 * (10.0f * 0x1p-24f),
+                 length_10 = all<4>(ray.direction_length * (10.0f * 0x1p-24f));
+    return {.size = size_of(det),
+            .u = signed_by(dot(p, s), det),
+            .v = signed_by(dot(q, d), det),
+            .t = signed_by(dot(q, e2), det),
+            .bound = fused(fused(n1 + n2, n, n12), length_10, tiny),
+            .late = fused(n12_10, n + all<4>(limit * ray.direction_length), tiny),
+            .early = fused(n12_10, n + all<4>(ray.tmin * ray.direction_length), tiny)};
+}
 
-    const Float4 w = size - (u + v), inside = smaller(smaller(u, v), w);
-    const Float4 after = t - fused(size, all<4>(limit), late),
-                 before = fused(size, all<4>(ray.tmin), -t);
+template <bool is_sure_asked>
+SPACE_INLINE LeafLanes filter_leaf(const char* block, const KernelRay& ray, float limit) {
+    const LeafVolumes of = volumes_of(block, ray, limit);
+    const Float4 w = of.size - (of.u + of.v), inside = smaller(smaller(of.u, of.v), w);
+    const Float4 after = of.t - fused(of.size, all<4>(limit), of.late),
+                 before = fused(of.size, all<4>(ray.before), -of.t);
     // Where the limit is infinite and det is 0, `after` is not a number, and not above the bound.
-    const unsigned missed = above(larger(after, -inside - bound), all<4>(0.0f)) |
-                            (above(before, early) & above(size, bound));
-    LeafLanes lanes{are_numbers(a[0]) & ~missed, 0};
-    if (is_sure_asked)
-        lanes.must_hit = above(smaller(inside, size), bound) & above(-before, early) &
-                         above(fused(size, all<4>(limit), -t), late);
+    const unsigned missed = above(larger(after, -inside - of.bound), all<4>(0.0f)) |
+                            (above(before, of.early) & above(of.size, of.bound));
+    LeafLanes lanes{are_numbers(of.size) & ~missed, 0};  // an empty place has no numbers
+    if (is_sure_asked) {
+        const bool has_end = limit < __builtin_inff();
+        lanes.must_hit = above(smaller(inside, of.size), of.bound) &
+                         above(of.t - of.size * all<4>(ray.tmin), of.early) &
+                         (has_end ? above(fused(of.size, all<4>(limit), -of.t), of.late) : 15u);
+    }
     return lanes;
 }
 // [leaf_filter]

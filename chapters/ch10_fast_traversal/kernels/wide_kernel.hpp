@@ -37,6 +37,10 @@ SPACE_INLINE NodeRay<N> node_ray_of(const KernelRay& ray) {
 SPACE_INLINE float float_after(float t) {
     return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, t + 0.0f) + 1);
 }
+/// The float before t, which is positive.
+SPACE_INLINE float float_before(float t) {
+    return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, t) - 1);
+}
 
 // [prepared]
 /// As prepare_kernel_ray, all axes at once; that one is asked about what is rare: rays that are
@@ -65,6 +69,7 @@ SPACE_INLINE bool prepared(const KernelTree& tree, const float* ray, KernelRay& 
     }
     result.tmin = tmin + 0.0f;
     result.tmax = tmax;
+    result.before = tmin > 0.0f ? float_before(tmin) : -0x1p-149f;
     result.limit = tmax < __builtin_inff() ? float_after(tmax) : tmax;
     result.direction_length = speed[0] + speed[1] + speed[2];
     return true;
