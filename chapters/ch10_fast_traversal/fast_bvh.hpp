@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace space {
 
@@ -42,17 +43,21 @@ class WideBvh {
     // [fast_bvh_build]
     /// @throws LimitError where the tree is deeper than the stack of a ray's walk
     static WideBvh build(std::span<const Triangle> triangles, const Config& config = {}) {
-        WideBvh bvh;
-        bvh.table_ =
-            kernel_table<N>(config.instructions ? *config.instructions : chosen_instruction_set());
-        bvh.tree_ = collapsed<N>(Builder::template build<3>(triangles, config.binary), triangles,
-                                 config.collapse);
-        if (bvh.tree_.depth > max_wide_depth)
+        return of(collapsed<N>(Builder::template build<3>(triangles, config.binary), triangles,
+                               config.collapse),
+                  config.instructions ? *config.instructions : chosen_instruction_set());
+    }
+    // [fast_bvh_build]
+    /// Over a tree that stands. @throws LimitError as build
+    static WideBvh of(WideTree<N> tree, InstructionSet instructions) {
+        if (tree.depth > max_wide_depth)
             throw LimitError("wide tree: deeper than " + std::to_string(max_wide_depth));
+        WideBvh bvh;
+        bvh.tree_ = std::move(tree);
+        bvh.table_ = kernel_table<N>(instructions);
         bvh.largest_ = bvh.tree_.largest();
         return bvh;
     }
-    // [fast_bvh_build]
     const WideTree<N>& tree() const { return tree_; }
     /// As kernels see it; valid while this stands.
     KernelTree kernel_tree() const {

@@ -198,6 +198,11 @@ SPACE_INLINE Float4 fused_minus(Float4 a, Float4 b, Float4 c) {
 }
 #endif
 
+/// Bits of the lanes that hold numbers from 0 on.
+SPACE_INLINE unsigned not_below_zero(Float4 a) {
+    return at_most(all<4>(0.0f), a);
+}
+
 /// Bits of the lanes with the sign minus.
 SPACE_INLINE unsigned below_zero(Float4 a) {
     return unsigned(_mm_movemask_ps(a));
@@ -222,6 +227,10 @@ SPACE_INLINE Lanes fused(Lanes a, Lanes b, Lanes c) {
 }
 SPACE_INLINE Float4 fused_minus(Float4 a, Float4 b, Float4 c) {
     return a * b - c;
+}
+SPACE_INLINE unsigned at_most(Float4 a, Float4 b);
+SPACE_INLINE unsigned not_below_zero(Float4 a) {
+    return at_most(all<4>(0.0f), a);
 }
 template <int N, class Lanes>
 SPACE_INLINE unsigned bits_of_lanes(Lanes truths) {

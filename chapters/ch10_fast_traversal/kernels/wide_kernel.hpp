@@ -144,8 +144,8 @@ SPACE_INLINE float box_limit(float limit) {
 /// Puts the lanes that the filter has left to the exact test, and keeps the nearest hit; of equal t
 /// that of the smaller index. @return the t beyond which nothing matters any more: a hit half a
 /// place farther may round to the same t.
-SPACE_INLINE float take_hits(const KernelTree& tree, const KernelRay& ray, const char* block,
-                             unsigned lanes, KernelHit& best) {
+[[gnu::noinline]] float take_hits(const KernelTree& tree, const KernelRay& ray, const char* block,
+                                  unsigned lanes, KernelHit& best) {
     const ExactLanes exact = exact_lanes(block, ray);
     for (unsigned hit = lanes & exact.hit; hit != 0; hit &= hit - 1) {
         const int lane = __builtin_ctz(hit);
@@ -162,8 +162,8 @@ SPACE_INLINE float take_hits(const KernelTree& tree, const KernelRay& ray, const
 // [leaf_closest]
 
 // [leaf_any]
-SPACE_INLINE bool is_any_hit(const KernelTree& tree, const KernelRay& ray, const char* block,
-                             unsigned lanes) {
+[[gnu::noinline]] bool is_any_hit(const KernelTree& tree, const KernelRay& ray, const char* block,
+                                  unsigned lanes) {
     const ExactLanes exact = exact_lanes(block, ray);
     if ((lanes & exact.hit) != 0) return true;
     for (unsigned rare = lanes & exact.undecided; rare != 0; rare &= rare - 1) {
