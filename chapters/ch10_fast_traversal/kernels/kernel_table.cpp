@@ -96,7 +96,8 @@ bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
     }
     prepared.tmin = ray.tmin + 0.0f;  // not -0
     prepared.tmax = ray.tmax;
-    prepared.before = std::nextafter(ray.tmin, -infinity);
+    // A product with a float below 2^-126 would take the processor a hundred cycles.
+    prepared.before = ray.tmin > 0x1p-100f ? std::nextafter(ray.tmin, -infinity) : -0x1p-110f;
     prepared.limit = std::nextafter(ray.tmax, infinity);
     prepared.direction_length = length;
     return true;

@@ -21,7 +21,7 @@ struct KernelRay {
     uint32_t near_row[3], far_row[3];  ///< of a node's rows: which are near, which far
     // [kernel_ray]
     float tmin, tmax;
-    float before, limit;     ///< the floats next to them, which are no t of a hit
+    float before, limit;     ///< before and after every t of a hit
     float direction_length;  ///< of the direction: the sum of its components' sizes
 };
 

@@ -69,7 +69,7 @@ SPACE_INLINE bool prepared(const KernelTree& tree, const float* ray, KernelRay& 
     }
     result.tmin = tmin + 0.0f;
     result.tmax = tmax;
-    result.before = tmin > 0.0f ? float_before(tmin) : -0x1p-149f;
+    result.before = tmin > 0x1p-100f ? float_before(tmin) : -0x1p-110f;
     result.limit = tmax < __builtin_inff() ? float_after(tmax) : tmax;
     result.direction_length = speed[0] + speed[1] + speed[2];
     return true;
