@@ -1,0 +1,23 @@
+/// @file
+/// Counts of what collapses, kernels' margins and filters do.
+#pragma once
+
+#include "chapters/ch10_fast_traversal/measured/walk_counts_data.hpp"
+#include "common/program/numbers.hpp"
+#include "common/program/options.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace space::ch10 {
+
+WalkCounts measure_walk_counts(const Options& options);
+/// Near and far planes at random, near the origin and far from it.
+std::vector<SlabErrorPoint> measure_slab_errors(const Options& options);
+
+void print_walk_counts(const WalkCounts& measured);
+void quote_walk_counts(const WalkCounts& measured, Numbers& numbers);
+/// Hits that were lost or invented, planes on the wrong side, wrong answers.
+std::uint64_t wrong_walk_counts(const WalkCounts& measured);
+
+}  // namespace space::ch10
