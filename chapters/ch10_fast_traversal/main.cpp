@@ -3,6 +3,7 @@
 ///     ch10_fast_traversal --figure fig_10_01 --out figures
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/bvh.hpp"
+#include "chapters/ch10_fast_traversal/measured/walk_counts.hpp"
 #include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
 #include "common/program/numbers.hpp"
@@ -53,9 +54,12 @@ int run(int argc, char** argv) {
     check_results_writable(options);
 
     start_with_the_binary_tree(options);
-    std::uint64_t wrong = 0;
+    const WalkCounts counts = measure_walk_counts(options);
+    print_walk_counts(counts);
+    std::uint64_t wrong = wrong_walk_counts(counts);
 
     Numbers numbers;
+    quote_walk_counts(counts, numbers);
     numbers.write(options.out, provenance(std::string(this_chapter.name), options));
     if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);

@@ -69,7 +69,7 @@ class FilterMap {
         KernelRay prepared;
         if (!prepare_kernel_ray(ray(x, y), 1.0f, prepared)) return Answer::undecided;
         const drawn::LeafLanes lanes = drawn::filter_leaf<true>(
-            reinterpret_cast<const char*>(&block), drawn::leaf_ray_of(prepared));
+            reinterpret_cast<const char*>(&block), prepared, prepared.limit);
         return lanes.must_hit != 0  ? Answer::hit
                : lanes.may_hit != 0 ? Answer::undecided
                                     : Answer::missed;

@@ -181,6 +181,7 @@ WalkCounts measure_walk_counts(const Options& options) {
         counts.plain_leaves.push_back(plain_leaf_point(name, triangles, aimed));
     }
     counts.slabs = measure_slab_errors(options);
+    counts.returns = measure_returns(options);
     return counts;
 }
 

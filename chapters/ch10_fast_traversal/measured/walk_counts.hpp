@@ -14,6 +14,8 @@ namespace space::ch10 {
 WalkCounts measure_walk_counts(const Options& options);
 /// Near and far planes at random, near the origin and far from it.
 std::vector<SlabErrorPoint> measure_slab_errors(const Options& options);
+/// Rays that leave a surface and what the slab tests say of the box that they come from.
+std::vector<ReturnPoint> measure_returns(const Options& options);
 
 void print_walk_counts(const WalkCounts& measured);
 void quote_walk_counts(const WalkCounts& measured, Numbers& numbers);

@@ -60,14 +60,23 @@ struct PlainLeafPoint {
     std::uint64_t wrong = 0;        ///< by the chapter's
 };
 
-/// Near and far planes as kernels compute them, beside the exact t.
+/// Near and far planes of random rays, beside the exact t.
 struct SlabErrorPoint {
     double away = 0.0;  ///< of the scene, which has size 1, from the origin
-    std::string_view instructions;
     std::uint64_t planes = 0;
-    std::uint64_t unsafe = 0;          ///< near planes too late, far ones too early
-    std::uint64_t unsafe_without = 0;  ///< the same with chapter 7's factors and no constant
-    double largest = 0.0;              ///< error over margin
+    std::uint64_t unsafe = 0;               ///< near planes too late, far ones too early
+    std::uint64_t unsafe_fused = 0;         ///< the same with one fused instruction a plane
+    std::uint64_t unsafe_fused_safely = 0;  ///< and with the margin that it needs
+    double largest = 0.0;                   ///< error over margin, of the kernels'
+};
+
+/// Rays that leave a triangle, and whether they are said to meet its box.
+struct ReturnPoint {
+    std::string scene;
+    std::uint64_t rays = 0, ours = 0, fused = 0;
+
+    double share_of_ours() const { return double(ours) / double(rays); }
+    double share_of_fused() const { return double(fused) / double(rays); }
 };
 
 /// All of it.
@@ -77,6 +86,7 @@ struct WalkCounts {
     std::vector<FilterPoint> filter;
     std::vector<PlainLeafPoint> plain_leaves;
     std::vector<SlabErrorPoint> slabs;
+    std::vector<ReturnPoint> returns;
 };
 
 }  // namespace space::ch10

@@ -62,12 +62,20 @@ Table plain_leaf_table(const WalkCounts& measured) {
 }
 
 Table slab_error_table(const WalkCounts& measured) {
-    Table table({"from the origin", "a plane is", "planes", "on the wrong side",
-                 "without the constants", "largest error / margin"});
+    Table table({"from the origin", "planes", "on the wrong side", "fused", "fused, with margin",
+                 "largest error / margin"});
     for (const SlabErrorPoint& p : measured.slabs)
-        table.row({with_commas(static_cast<std::uint64_t>(p.away)), std::string(p.instructions),
-                   with_commas(p.planes), with_commas(p.unsafe), with_commas(p.unsafe_without),
-                   fixed(p.largest, 3)});
+        table.row({with_commas(static_cast<std::uint64_t>(p.away)), with_commas(p.planes),
+                   with_commas(p.unsafe), with_commas(p.unsafe_fused),
+                   with_commas(p.unsafe_fused_safely), fixed(p.largest, 3)});
+    return table;
+}
+
+Table return_table(const WalkCounts& measured) {
+    Table table({"scene", "rays that leave a triangle", "back into its box", "fused, with margin"});
+    for (const ReturnPoint& p : measured.returns)
+        table.row({p.scene, with_commas(p.rays), percent(p.share_of_ours()),
+                   percent(p.share_of_fused())});
     return table;
 }
 
@@ -92,6 +100,8 @@ void print_walk_counts(const WalkCounts& measured) {
     plain_leaf_table(measured).print();
     print_heading("Planes as kernels compute them");
     slab_error_table(measured).print();
+    print_heading("Rays that leave a triangle");
+    return_table(measured).print();
 }
 
 void quote_walk_counts(const WalkCounts& measured, Numbers& numbers) {
@@ -100,6 +110,7 @@ void quote_walk_counts(const WalkCounts& measured, Numbers& numbers) {
     numbers.count_table("filter", filter_table(measured));
     numbers.count_table("plain_leaves", plain_leaf_table(measured));
     numbers.count_table("slab_errors", slab_error_table(measured));
+    numbers.count_table("returns", return_table(measured));
     double largest = 0.0, few = 0.0;
     for (const SlabErrorPoint& p : measured.slabs) largest = std::max(largest, p.largest);
     numbers.count("slab_error_over_bound", largest, fixed(largest, 2));
@@ -121,7 +132,7 @@ void quote_walk_counts(const WalkCounts& measured, Numbers& numbers) {
 std::uint64_t wrong_walk_counts(const WalkCounts& measured) {
     return summed(measured.filter, [](const auto& p) { return p.lost + p.invented; }) +
            summed(measured.plain_leaves, [](const auto& p) { return p.wrong; }) +
-           summed(measured.slabs, [](const auto& p) { return p.unsafe; });
+           summed(measured.slabs, [](const auto& p) { return p.unsafe + p.unsafe_fused_safely; });
 }
 
 }  // namespace space::ch10
