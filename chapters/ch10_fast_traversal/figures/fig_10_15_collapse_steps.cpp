@@ -37,7 +37,7 @@ class CollapseStage {
     std::string tells_costs(std::uint32_t node) const;
     std::string tells_piece(const Piece& piece) const;
     double cost(std::uint32_t node, std::size_t in) const {
-        return double{choice_.row(node).cost[in - 1]} / chance_.whole();
+        return double{choice_.row(node).cost[in - 1]};
     }
     std::string names(const std::vector<std::uint32_t>& nodes) const {
         std::vector<std::string> words;
@@ -50,7 +50,6 @@ class CollapseStage {
 
     Walls<2> walls_ = walls_on<2>(clustered_segments(4821, 3, 3));
     Choice4 choice_{walls_.binary, one_segment_leaves(CollapseConfig::Way::least_cost)};
-    HitChance<2> chance_{walls_.binary.nodes[0].box};
     std::vector<Piece> pieces_ = pieces_of(walls_.binary, choice_);
     CollapseTree tree_{walls_, at(8, 30), at(370, 300)};
     std::vector<CollapseStep> steps_;

@@ -12,10 +12,13 @@
 #include "common/random_rays.hpp"
 #include "common/scene.hpp"
 
+#include <glm/geometric.hpp>
+
 #define SPACE_ISA counting
 #include "chapters/ch10_fast_traversal/kernels/leaf_filter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -111,6 +114,23 @@ CollapsePoint collapse_point(const std::string& scene, const BvhNodes<3>& binary
     return point;
 }
 
+/// The largest error of the volumes that decide about one triangle, over their bound, where the
+/// sign of the determinant is certain. Doubles are exact enough to tell.
+double error_over_bound(const Ray& ray, const Triangle& triangle,
+                        const counting::LeafVolumes& floats, std::size_t lane) {
+    const Double3 a{triangle.a}, d{ray.direction},
+        e1 = Double3(triangle.b) - a, e2 = Double3(triangle.c) - a, s = Double3(ray.origin) - a;
+    const Double3 p = glm::cross(d, e2);
+    const double det = glm::dot(p, e1), bound{floats.bound[lane]}, size{floats.size[lane]};
+    if (size <= bound) return 0.0;
+    const double turned = det < 0.0 ? -1.0 : 1.0, u = turned * glm::dot(p, s),
+                 v = turned * glm::dot(glm::cross(s, e1), d), float_u{floats.u[lane]},
+                 float_v{floats.v[lane]};
+    const double w = std::abs(det) - (u + v);
+    const double float_w{floats.size[lane] - (floats.u[lane] + floats.v[lane])};
+    return std::max({std::abs(u - float_u), std::abs(v - float_v), std::abs(w - float_w)}) / bound;
+}
+
 /// The kernels' filter, asked about every block that the walk comes to.
 FilterPoint filter_point(const std::string& scene, std::string_view kind, const WideTree<8>& tree,
                          const std::vector<Ray>& rays) {
@@ -126,6 +146,8 @@ FilterPoint filter_point(const std::string& scene, std::string_view kind, const 
                 const auto hit = FilteredExact::intersect(ray, block.triangle(i));
                 const bool is_hit = hit && hit->t <= ends, may_hit = (lanes.may_hit >> i & 1u) != 0,
                            must_hit = (lanes.must_hit >> i & 1u) != 0;
+                point.largest =
+                    std::max(point.largest, error_over_bound(ray, block.triangle(i), volumes, i));
                 ++point.lanes;
                 point.left += may_hit;
                 point.hits += may_hit && is_hit;
@@ -176,6 +198,8 @@ WalkCounts measure_walk_counts(const Options& options) {
             walk_counting(
                 tree, ray, [](const TriangleBlock&, double) {}, visits);
         counts.met.push_back({.scene = name, .visits = visits.by_met});
+        for (OrderPoint& point : order_points(name, tree, rays))
+            counts.orders.push_back(std::move(point));
         counts.filter.push_back(filter_point(name, "anywhere", tree, rays));
         counts.filter.push_back(filter_point(name, "at edges and vertices", tree, aimed));
         counts.plain_leaves.push_back(plain_leaf_point(name, triangles, aimed));

@@ -38,6 +38,13 @@ struct MetPoint {
     double share(std::size_t met) const { return double(visits[met]) / double(all()); }
 };
 
+/// What a ray visits if a node's children are taken in one order.
+struct OrderPoint {
+    std::string scene;
+    std::string_view order;
+    std::uint64_t rays = 0, nodes = 0, blocks = 0;
+};
+
 /// What the float filter says of the triangles that rays come to.
 struct FilterPoint {
     std::string scene;
@@ -48,6 +55,7 @@ struct FilterPoint {
     std::uint64_t lost = 0;      ///< hits that the filter has thrown out
     std::uint64_t sure = 0;      ///< hits that it was sure of
     std::uint64_t invented = 0;  ///< of what it was sure of, misses
+    double largest = 0.0;        ///< error of a volume over the bound
 
     double left_share() const { return double(left) / double(lanes); }
 };
@@ -83,6 +91,7 @@ struct ReturnPoint {
 struct WalkCounts {
     std::vector<CollapsePoint> collapses;
     std::vector<MetPoint> met;
+    std::vector<OrderPoint> orders;
     std::vector<FilterPoint> filter;
     std::vector<PlainLeafPoint> plain_leaves;
     std::vector<SlabErrorPoint> slabs;

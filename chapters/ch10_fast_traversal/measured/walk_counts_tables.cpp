@@ -44,13 +44,20 @@ Table met_table(const WalkCounts& measured) {
     return table;
 }
 
+Table order_table(const WalkCounts& measured) {
+    Table table({"scene", "children are taken", "nodes a ray", "blocks a ray"});
+    for (const OrderPoint& p : measured.orders)
+        table.row({p.scene, std::string(p.order), per(p.nodes, p.rays), per(p.blocks, p.rays)});
+    return table;
+}
+
 Table filter_table(const WalkCounts& measured) {
     Table table({"scene", "rays", "triangles tested", "left to the exact test", "of these hits",
-                 "hits lost", "surely hit", "wrongly so"});
+                 "hits lost", "surely hit", "wrongly so", "largest error / bound"});
     for (const FilterPoint& p : measured.filter)
         table.row({p.scene, std::string(p.rays), with_commas(p.lanes), percent(p.left_share()),
                    with_commas(p.hits), with_commas(p.lost), with_commas(p.sure),
-                   with_commas(p.invented)});
+                   with_commas(p.invented), fixed(p.largest, 3)});
     return table;
 }
 
@@ -94,6 +101,8 @@ void print_walk_counts(const WalkCounts& measured) {
     collapse_table(measured).print();
     print_heading("Children that a visit to a node of eight meets");
     met_table(measured).print();
+    print_heading("Orders of a node's children");
+    order_table(measured).print();
     print_heading("What the filter of leaves decides");
     filter_table(measured).print();
     print_heading("Leaves in plain float, and ours");
@@ -107,6 +116,7 @@ void print_walk_counts(const WalkCounts& measured) {
 void quote_walk_counts(const WalkCounts& measured, Numbers& numbers) {
     numbers.count_table("collapses", collapse_table(measured));
     numbers.count_table("met_children", met_table(measured));
+    numbers.count_table("orders", order_table(measured));
     numbers.count_table("filter", filter_table(measured));
     numbers.count_table("plain_leaves", plain_leaf_table(measured));
     numbers.count_table("slab_errors", slab_error_table(measured));
@@ -117,6 +127,9 @@ void quote_walk_counts(const WalkCounts& measured, Numbers& numbers) {
     for (const MetPoint& p : measured.met)
         few += (p.share(0) + p.share(1) + p.share(2)) / double(measured.met.size());
     numbers.count("met_at_most_two", few, percent(few));
+    double error = 0.0;
+    for (const FilterPoint& p : measured.filter) error = std::max(error, p.largest);
+    numbers.count("filter_error_over_bound", error, fixed(error, 2));
     std::uint64_t left = 0, lanes = 0;
     for (const FilterPoint& p : measured.filter)
         if (p.rays == "anywhere") left += p.left, lanes += p.lanes;
