@@ -140,8 +140,9 @@ FilterPoint filter_point(const std::string& scene, std::string_view kind, const 
         if (!prepare_kernel_ray(ray, tree.largest(), prepared)) continue;
         walk_counting(tree, ray, [&](const TriangleBlock& block, double limit) {
             const float ends = std::min(prepared.limit, static_cast<float>(limit));
-            const counting::LeafLanes lanes =
-                counting::filter_leaf<true>(reinterpret_cast<const char*>(&block), prepared, ends);
+            const char* const bytes = reinterpret_cast<const char*>(&block);
+            const counting::LeafLanes lanes = counting::filter_leaf<true>(bytes, prepared, ends);
+            const counting::LeafVolumes volumes = counting::volumes_of(bytes, prepared, ends);
             for (std::size_t i = 0; i < TriangleBlock::size && block.is_used(i); ++i) {
                 const auto hit = FilteredExact::intersect(ray, block.triangle(i));
                 const bool is_hit = hit && hit->t <= ends, may_hit = (lanes.may_hit >> i & 1u) != 0,
