@@ -78,7 +78,8 @@ struct SlabErrorPoint {
     double largest = 0.0;                   ///< error over margin, of the kernels'
 };
 
-/// Rays that leave a triangle, and whether they are said to meet its box.
+/// Rays that leave a triangle that lies in a plane across an axis, and whether they are said to
+/// meet its box.
 struct ReturnPoint {
     std::string scene;
     std::uint64_t rays = 0, ours = 0, fused = 0;

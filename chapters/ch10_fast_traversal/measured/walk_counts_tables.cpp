@@ -79,7 +79,7 @@ Table slab_error_table(const WalkCounts& measured) {
 }
 
 Table return_table(const WalkCounts& measured) {
-    Table table({"scene", "rays that leave a triangle", "back into its box", "fused, with margin"});
+    Table table({"scene", "rays that leave a wall", "back into its box", "fused, with margin"});
     for (const ReturnPoint& p : measured.returns)
         table.row({p.scene, with_commas(p.rays), percent(p.share_of_ours()),
                    percent(p.share_of_fused())});
@@ -109,7 +109,7 @@ void print_walk_counts(const WalkCounts& measured) {
     plain_leaf_table(measured).print();
     print_heading("Planes as kernels compute them");
     slab_error_table(measured).print();
-    print_heading("Rays that leave a triangle");
+    print_heading("Rays that leave a wall");
     return_table(measured).print();
 }
 
