@@ -10,6 +10,7 @@
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch10/every_kernel.hpp"
+#include "tests/ch10/quadruple.hpp"
 #include "tests/ch10/wide_faults.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
 #include "tests/suite/test_rays.hpp"
@@ -54,9 +55,6 @@ std::size_t check_kernels(const std::vector<Triangle>& triangles, const std::vec
     return hits;
 }
 
-/// Enough bits for the differences and products below to be exact.
-__extension__ typedef __float128 Wide;
-
 /// A box, and a ray aimed at its corner or at an edge of it from afar.
 struct BoxCase {
     Aabb box;
@@ -83,10 +81,10 @@ BoxCase box_case(Pcg32& random, float away) {
 /// Whether the ray meets the closed box: all near planes before all far ones, and the latter not
 /// behind it, in exact arithmetic.
 bool is_met(const BoxCase& c) {
-    std::array<Wide, 3> near, far, speed;  // times the speed, which is not negative
+    std::array<Quadruple, 3> near, far, speed;  // times the speed, which is not negative
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = std::size_t(axis);
-        const Wide d = c.ray.direction[axis], o = c.ray.origin[axis];
+        const Quadruple d = c.ray.direction[axis], o = c.ray.origin[axis];
         if (c.ray.direction[axis] == 0.0f) return false;  // not asked about
         speed[i] = d > 0 ? d : -d;
         near[i] = d > 0 ? c.box.min[axis] - o : o - c.box.max[axis];

@@ -4,6 +4,7 @@
 #include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "tests/catch.hpp"
+#include "tests/ch10/quadruple.hpp"
 
 #include <fmt/format.h>
 
@@ -14,11 +15,7 @@
 namespace space {
 namespace {
 
-/// 113 bits: the difference of two floats is exact in them as long as one is not 2^89 times the
-/// other, and so is a product of it with a float and a bit.
-__extension__ typedef __float128 Wide;
-
-constexpr Wide u = 0x1p-24;
+constexpr Quadruple u = 0x1p-24;
 
 /// From 2^lowest to 2^highest, of either sign, all sizes alike.
 float of_any_size(Pcg32& random, int lowest, int highest) {
@@ -57,11 +54,11 @@ KernelRay prepared(const Case& c) {
 
 /// Whether t, computed, is at most the exact (p - o) / d, or at least.
 bool at_most_exact(float t, const Case& c) {
-    const Wide left = Wide{t} * c.d, right = Wide{c.p} - c.o;
+    const Quadruple left = Quadruple{t} * c.d, right = Quadruple{c.p} - c.o;
     return c.d > 0 ? left <= right : left >= right;
 }
 bool at_least_exact(float t, const Case& c) {
-    const Wide left = Wide{t} * c.d, right = Wide{c.p} - c.o;
+    const Quadruple left = Quadruple{t} * c.d, right = Quadruple{c.p} - c.o;
     return c.d > 0 ? left >= right : left <= right;
 }
 /// As the kernels compute it across an axis.
@@ -81,7 +78,7 @@ TEST_CASE("a near plane is never met later than exactly, a far one never earlier
     for (int i = 0; i < sized(400'000, 20'000); ++i) {
         const Case c = some_case(random);
         const KernelRay ray = prepared(c);
-        const bool is_ahead = (Wide{c.p} - c.o) * c.d >= 0;
+        const bool is_ahead = (Quadruple{c.p} - c.o) * c.d >= 0;
         const float near = near_t(ray, 0, c.p);
         // A product that underflows is off by half of the smallest float: far planes have more.
         if (!(near <= 0x1p-126f || at_most_exact(near, c))) {
@@ -101,15 +98,15 @@ TEST_CASE("a near plane is never met later than exactly, a far one never earlier
 TEST_CASE(
     "of what reciprocals are shortened and lengthened by, most is used, and no more than all") {
     Pcg32 random(2);
-    Wide near = 0, far = 0;
+    Quadruple near = 0, far = 0;
     for (int i = 0; i < sized(400'000, 20'000); ++i) {
         const Case c = some_case(random);
-        const Wide exact = (Wide{c.p} - c.o) / c.d;
-        if (!(exact > Wide(0x1p-60))) continue;
+        const Quadruple exact = (Quadruple{c.p} - c.o) / c.d;
+        if (!(exact > Quadruple(0x1p-60))) continue;
         const KernelRay ray = prepared(c);
         // What is left between the computed t and the exact one, beside what was given away.
-        near = std::max(near, 1 - (1 - Wide{near_t(ray, 0, c.p)} / exact) / (4 * u));
-        far = std::max(far, 1 - (Wide{far_t(ray, 0, c.p, false)} / exact - 1) / (6 * u));
+        near = std::max(near, 1 - (1 - Quadruple{near_t(ray, 0, c.p)} / exact) / (4 * u));
+        far = std::max(far, 1 - (Quadruple{far_t(ray, 0, c.p, false)} / exact - 1) / (6 * u));
     }
     fmt::print("  largest share of a plane's margin that roundings take: near {:.2f}, far {:.2f}\n",
                double(near), double(far));
@@ -130,8 +127,8 @@ TEST_CASE("a ray along planes: those that it lies in are met before it begins an
             prepare_kernel_ray({.origin = {o, 1, 1}, .direction = {zero, d, 0}}, 1024.0f, ray);
         REQUIRE(is_for_kernels);
         // Where it leaves the box around all at the latest.
-        const Wide reach = std::max({1024.0f, std::abs(o), 1.0f});
-        const float end = float(2 * reach / (d < 0 ? -Wide{d} : Wide{d}));
+        const Quadruple reach = std::max({1024.0f, std::abs(o), 1.0f});
+        const float end = float(2 * reach / (d < 0 ? -Quadruple{d} : Quadruple{d}));
         const auto fail = [&](float plane) {
             CAPTURE(i, o, d, plane, end);
             FAIL("a plane that the ray lies in, or is inside of, clips it");
