@@ -43,22 +43,28 @@ class WideBvh {
     // [fast_bvh_build]
     /// @throws LimitError where the tree is deeper than the stack of a ray's walk
     static WideBvh build(std::span<const Triangle> triangles, const Config& config = {}) {
-        return of(collapsed<N>(Builder::template build<3>(triangles, config.binary), triangles,
-                               config.collapse),
-                  config.instructions ? *config.instructions : chosen_instruction_set());
+        return over(Builder::template build<3>(triangles, config.binary), triangles, config);
     }
     // [fast_bvh_build]
+    /// Over a binary tree that stands. @throws LimitError as build
+    static WideBvh over(const BvhNodes<3>& binary, std::span<const Triangle> triangles,
+                        const Config& config = {}) {
+        return of(collapsed<N>(binary, triangles, config.collapse),
+                  config.instructions ? *config.instructions : chosen_instruction_set());
+    }
     /// Over a tree that stands. @throws LimitError as build
     static WideBvh of(WideTree<N> tree, InstructionSet instructions) {
         if (tree.depth > max_wide_depth)
             throw LimitError("wide tree: deeper than " + std::to_string(max_wide_depth));
         WideBvh bvh;
         bvh.tree_ = std::move(tree);
+        bvh.instructions_ = instructions;
         bvh.table_ = kernel_table<N>(instructions);
         bvh.largest_ = bvh.tree_.largest();
         return bvh;
     }
     const WideTree<N>& tree() const { return tree_; }
+    InstructionSet instructions() const { return instructions_; }
     /// As kernels see it; valid while this stands.
     KernelTree kernel_tree() const {
         return {.nodes = reinterpret_cast<const char*>(tree_.nodes.data()),
@@ -127,6 +133,7 @@ class WideBvh {
     }
 
     WideTree<N> tree_;
+    InstructionSet instructions_ = InstructionSet::scalar;
     const KernelTable* table_ = nullptr;
     float largest_ = 0.0f;
 };

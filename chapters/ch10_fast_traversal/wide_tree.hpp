@@ -35,6 +35,13 @@ struct WideTree {
     std::size_t bytes() const {
         return nodes.size() * sizeof(WideNode<N>) + blocks.size() * sizeof(TriangleBlock);
     }
+    /// Calls own(block) for each block of a leaf until it returns false. @return whether none did
+    template <class Own>
+    bool each_block(WideChild leaf, const Own& own) const {
+        for (std::uint32_t i = leaf.first(); i < leaf.first() + leaf.count(); ++i)
+            if (!own(blocks[i])) return false;
+        return true;
+    }
     /// The largest size of a coordinate.
     float largest() const {
         float most = 0.0f;

@@ -47,9 +47,10 @@ inline constexpr unsigned max_wide_depth = 160;
 // [wide_walk_scalar]
 /// Calls own(block) for the blocks of each leaf on the way; it returns the t beyond which nothing
 /// matters any more (NaN: nothing at all).
-template <int N, class WalkRay, class Counts, class Own, class Observer>
-void walk_wide(const WideTree<N>& tree, const WalkRay& ray, Counts& counts, const Own& own,
+template <class Tree, class WalkRay, class Counts, class Own, class Observer>
+void walk_wide(const Tree& tree, const WalkRay& ray, Counts& counts, const Own& own,
                Observer&& observer) {
+    constexpr std::size_t N = Tree::width;
     using Real = typename WalkRay::Real;
     struct Waiting {
         WideChild child;
@@ -61,7 +62,7 @@ void walk_wide(const WideTree<N>& tree, const WalkRay& ray, Counts& counts, cons
     Waiting in_hand{*tree.root, ray.span_in(tree.box, limit).enter};
     for (;;) {
         if (!in_hand.child.is_leaf()) {
-            const WideNode<N>& node = tree.nodes[in_hand.child.index()];
+            const auto& node = tree.nodes[in_hand.child.index()];
             counts.visit_node();
             std::array<typename WideVisit<N>::Met, N> met;
             std::size_t many = 0;
@@ -80,11 +81,12 @@ void walk_wide(const WideTree<N>& tree, const WalkRay& ray, Counts& counts, cons
         } else {
             observer.observe(WideLeafVisit{in_hand.child, double{in_hand.enter}});
             counts.visit_node();
-            for (std::uint32_t i = 0; i < in_hand.child.count(); ++i) {
-                const auto ends = own(tree.blocks[in_hand.child.first() + i]);
-                if (std::isnan(ends)) return;
-                limit = std::min(static_cast<Real>(ends), limit);
-            }
+            const bool goes_on = tree.each_block(in_hand.child, [&](const TriangleBlock& block) {
+                const auto ends = own(block);
+                limit = std::min(static_cast<Real>(ends), limit);  // NaN stays
+                return !std::isnan(ends);
+            });
+            if (!goes_on) return;
         }
         for (;; observer.observe(WideSkipped{in_hand.child, double{in_hand.enter}})) {
             if (size == 0) return;
@@ -96,8 +98,8 @@ void walk_wide(const WideTree<N>& tree, const WalkRay& ray, Counts& counts, cons
 // [wide_walk_scalar]
 
 /// Walks any ray.
-template <int N, class Counts, class Own, class Observer = NoObserver>
-void walk_wide_any(const WideTree<N>& tree, const Ray& ray, Counts& counts, const Own& own,
+template <class Tree, class Counts, class Own, class Observer = NoObserver>
+void walk_wide_any(const Tree& tree, const Ray& ray, Counts& counts, const Own& own,
                    Observer&& observer = {}) {
     if (tree.empty() || !is_valid(ray)) return;
     const BvhRay<3> prepared(ray);

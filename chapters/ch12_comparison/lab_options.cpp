@@ -193,6 +193,8 @@ LabOptions parse_lab_options(int argc, char** argv) {
         [&](std::uint64_t n) { options.repeat = static_cast<int>(n); },
         "timed runs of each build and trace, in turn; their medians count")
         ->default_str(fmt::format("{}", options.repeat));
+    app.add_flag("--packets", options.packets,
+                 "rays in packets of 64, by structures that know them (fast); others one by one");
     app.add_flag("--check", options.check, "compare the answers with naive tracing");
     parse_command_line(app, argc, argv);
     list_scenes_if_asked(options.common);

@@ -30,6 +30,7 @@ struct LabOptions {
     Query query = Query::closest;
     BuildOptions build{.threads = 0};
     int repeat = 3;
+    bool packets = false;  ///< of rays, where a structure knows them
     bool check = false;
     std::filesystem::path hits, json;
 

@@ -63,6 +63,8 @@ std::vector<double> trace_all(std::span<Measurement> measurements, std::span<con
                                       &progress};
                     if (counts && built.count)
                         measurement.counts = built.count(batch);
+                    else if (options.packets && built.trace_packets)
+                        built.trace_packets(batch);
                     else
                         built.trace(batch);
                 });

@@ -38,6 +38,8 @@ struct Batch {
 struct BuiltStructure {
     std::function<TreeShape()> shape;
     std::function<void(const Batch&)> trace;  ///< without counting: what is timed
+    /// The same answers by rays in packets, which few structures know.
+    std::function<void(const Batch&)> trace_packets = {};
     /// The same answers, and the work behind them. A peer does not tell.
     std::function<TraversalCounts(const Batch&)> count = {};
     unsigned build_threads = 1;      ///< that the builder could use

@@ -1,3 +1,4 @@
 // The kernels for one instruction set; its CMakeLists.txt has the compiler's options.
 #define SPACE_ISA portable
+#include "chapters/ch10_fast_traversal/kernels/many_kernels.hpp"
 #include "chapters/ch10_fast_traversal/kernels/wide_kernel.hpp"

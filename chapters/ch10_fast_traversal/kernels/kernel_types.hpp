@@ -52,6 +52,7 @@ struct KernelTree {
     float largest;        ///< size of a coordinate of the tree
     ExactLane exact;
     PrepareRay prepare;
+    const float* corners = nullptr;  ///< of a compressed tree, three floats each
 };
 
 /// What a kernel says of a ray.

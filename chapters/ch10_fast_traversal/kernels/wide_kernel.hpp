@@ -104,8 +104,8 @@ SPACE_INLINE uint64_t waiting(float enter, uint32_t child) {
 // [wide_order]
 /// The nearest of the met children; the others go onto the stack, the nearest on top.
 template <int N>
-SPACE_INLINE uint32_t nearest_of(const char* node, unsigned met, Floats<N> enter, uint64_t*& top) {
-    const uint32_t* const children = reinterpret_cast<const uint32_t*>(node + 24 * N);
+SPACE_INLINE uint32_t nearest_of(const uint32_t* children, unsigned met, Floats<N> enter,
+                                 uint64_t*& top) {
     const unsigned first = unsigned(__builtin_ctz(met));
     met &= met - 1;
     if (met == 0) return children[first];
@@ -175,10 +175,41 @@ SPACE_INLINE float box_limit(float limit) {
 }
 // [leaf_any]
 
-// [wide_walk]
+// [wide_layout]
+/// Where nodes and leaves of a WideTree<N> stand: what a walk asks of any layout.
 template <int N>
+struct WideLayout {
+    static constexpr int width = N;
+
+    /// The children that the ray meets, and their words.
+    SPACE_INLINE static unsigned met(const KernelTree& tree, uint32_t child, const NodeRay<N>& ray,
+                                     Floats<N> limit, Floats<N>& enter, const uint32_t*& children) {
+        const char* const node = tree.nodes + child * (size_t(N) * 32);
+        children = reinterpret_cast<const uint32_t*>(node + 24 * N);
+        return met_children<N>(node, ray, limit, enter);
+    }
+    /// A leaf's blocks, one after the other.
+    struct Leaf {
+        const char* block;
+        unsigned count;
+
+        SPACE_INLINE Leaf(const KernelTree& tree, uint32_t child)
+            : block(tree.blocks + (child & 0x0fffffff) * block_bytes),
+              count((child >> 28 & 7) + 1) {}
+        SPACE_INLINE bool has_block() const { return count > 0; }
+        SPACE_INLINE void take_next() {
+            block += block_bytes;
+            --count;
+        }
+    };
+};
+// [wide_layout]
+
+// [wide_walk]
+template <class Layout>
 SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* floats,
                                       KernelHit& best) {
+    constexpr int N = Layout::width;
     KernelRay ray;
     if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
@@ -191,21 +222,20 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
     for (;;) {
         bool is_over = false;
         while ((child & leaf_bit) == 0) {
-            const char* const node = tree.nodes + child * (size_t(N) * 32);
+            const uint32_t* children;
             Floats<N> enter;
-            const unsigned met = met_children<N>(node, node_ray, limit, enter);
+            const unsigned met = Layout::met(tree, child, node_ray, limit, enter, children);
             if (met == 0) {
                 is_over = true;
                 break;
             }
-            child = nearest_of<N>(node, met, enter, top);
+            child = nearest_of<N>(children, met, enter, top);
         }
         if (!is_over) {
-            const char* block = tree.blocks + (child & 0x0fffffff) * block_bytes;
-            for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, block += block_bytes) {
-                const unsigned lanes = filter_leaf<false>(block, ray, ends).may_hit;
+            for (typename Layout::Leaf leaf(tree, child); leaf.has_block(); leaf.take_next()) {
+                const unsigned lanes = filter_leaf<false>(leaf.block, ray, ends).may_hit;
                 if (lanes == 0) continue;
-                ends = take_hits(tree, ray, block, lanes, best);
+                ends = take_hits(tree, ray, leaf.block, lanes, best);
                 limit = all<N>(box_limit(ends));
             }
         }
@@ -221,8 +251,9 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
 
 // [wide_any]
 /// Any hit ends it, so the order matters less: the first child met is taken, the others wait.
-template <int N>
+template <class Layout>
 SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
+    constexpr int N = Layout::width;
     KernelRay ray;
     if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
@@ -234,19 +265,17 @@ SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
     while (top != bottom) {
         const uint32_t child = *--top;
         if ((child & leaf_bit) == 0) {
-            const char* const node = tree.nodes + child * (size_t(N) * 32);
-            const uint32_t* const children = reinterpret_cast<const uint32_t*>(node + 24 * N);
+            const uint32_t* children;
             Floats<N> enter;
-            for (unsigned met = met_children<N>(node, node_ray, limit, enter); met != 0;
-                 met &= met - 1)
+            for (unsigned met = Layout::met(tree, child, node_ray, limit, enter, children);
+                 met != 0; met &= met - 1)
                 *top++ = children[__builtin_ctz(met)];
             continue;
         }
-        const char* block = tree.blocks + (child & 0x0fffffff) * block_bytes;
-        for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, block += block_bytes) {
-            const LeafLanes lanes = filter_leaf<true>(block, ray, ray.limit);
+        for (typename Layout::Leaf leaf(tree, child); leaf.has_block(); leaf.take_next()) {
+            const LeafLanes lanes = filter_leaf<true>(leaf.block, ray, ray.limit);
             if (lanes.must_hit != 0) return kernel_hit;
-            if (lanes.may_hit != 0 && is_any_hit(tree, ray, block, lanes.may_hit))
+            if (lanes.may_hit != 0 && is_any_hit(tree, ray, leaf.block, lanes.may_hit))
                 return kernel_hit;
         }
     }
@@ -255,16 +284,16 @@ SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
 // [wide_any]
 
 KernelAnswer closest4(const KernelTree& tree, const float* ray, KernelHit& best) {
-    return closest_hit<4>(tree, ray, best);
+    return closest_hit<WideLayout<4>>(tree, ray, best);
 }
 KernelAnswer closest8(const KernelTree& tree, const float* ray, KernelHit& best) {
-    return closest_hit<8>(tree, ray, best);
+    return closest_hit<WideLayout<8>>(tree, ray, best);
 }
 KernelAnswer any4(const KernelTree& tree, const float* ray) {
-    return any_hit<4>(tree, ray);
+    return any_hit<WideLayout<4>>(tree, ray);
 }
 KernelAnswer any8(const KernelTree& tree, const float* ray) {
-    return any_hit<8>(tree, ray);
+    return any_hit<WideLayout<8>>(tree, ray);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ inline constexpr std::array<std::string_view, 3> ray_kinds{"camera", "shadow", "
 struct MemoryPoint {
     std::uint64_t bytes = 0;
     double latency_ns = 0.0;       ///< of one load that waits for the one before
+    double small_pages_ns = 0.0;   ///< the same in pages of 4 KB
     double many_latency_ns = 0.0;  ///< of one load where eight chains are followed at once
     double gigabytes_per_second = 0.0;
 };
@@ -30,6 +31,14 @@ struct SlabPoint {
     std::string instruction_set;  ///< "scalar", "sse2", "avx2", "avx512"
     std::uint64_t boxes_at_once = 1;
     double ns_per_box = 0.0;
+};
+
+/// What one of a walk's steps takes, by itself: of a node of eight boxes, of a block of four
+/// triangles.
+struct StepPoint {
+    std::string instruction_set;
+    double node_latency_ns = 0.0, node_ns = 0.0;  ///< one after the other; all by themselves
+    double block_latency_ns = 0.0, block_ns = 0.0;
 };
 
 /// What a ray does in one tree, and where its time goes.
@@ -131,10 +140,26 @@ struct AimedPoint {
     double wrong_per_million() const { return 1e6 * double(wrong) / double(rays); }
 };
 
+/// Kernels beside the naive loop: answers of all rays to both questions.
+struct KernelPoint {
+    std::string scene, instruction_set;
+    std::uint64_t width = 0, triangles = 0, rays = 0;
+    std::uint64_t differ = 0;  ///< in any bit
+};
+
+/// One choice for the tree under the same kernel.
+struct ChoicePoint {
+    std::string scene, choice;
+    std::uint64_t triangles = 0, nodes = 0, blocks = 0, bytes = 0, rays = 0, visits = 0, tests = 0;
+    double cost = 0.0;
+    std::array<double, 3> ns = {};  ///< of a ray, by kind
+};
+
 /// All of it.
 struct FastMeasurements {
     std::vector<MemoryPoint> memory;  ///< none where nothing is timed
     std::vector<SlabPoint> slabs;     ///< none where nothing is timed
+    std::vector<StepPoint> steps;     ///< none where nothing is timed
     std::vector<WorkPoint> work;
     std::vector<RungPoint> ladder;
     std::vector<PeerPoint> peers;
@@ -142,6 +167,8 @@ struct FastMeasurements {
     std::vector<SizePoint> sizes;
     std::vector<ModePoint> modes;
     std::vector<AimedPoint> aimed;
+    std::vector<KernelPoint> kernels;
+    std::vector<ChoicePoint> widths, leaf_sizes, high;
 };
 
 }  // namespace space::ch10

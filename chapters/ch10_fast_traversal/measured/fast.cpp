@@ -1,0 +1,55 @@
+#include "chapters/ch10_fast_traversal/measured/fast.hpp"
+
+#include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
+#include "common/program/progress.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace space::ch10 {
+namespace {
+
+bool is_among(const std::vector<FastScene>& scenes, const std::string& name) {
+    return std::ranges::any_of(scenes, [&](const FastScene& s) { return s.name == name; });
+}
+
+}  // namespace
+
+FastMeasurements measure_fast(const Options& options) {
+    const FastEffort effort = fast_effort(options);
+    FastMeasurements measured;
+    measure_probes(effort, measured);
+    std::vector<FastScene> all = effort.ladder;
+    for (const auto* const more : {&effort.modes, &effort.scenes})
+        for (const FastScene& scene : *more)
+            if (!is_among(all, scene.name)) all.push_back(scene);
+    Progress progress("scenes", all.size());
+    for (const auto& [name, is_long] : all) {
+        if (const std::optional<TracedScene> scene =
+                traced_scene(name, is_long, effort.width, effort.height, options)) {
+            if (is_among(effort.ladder, name)) {
+                measure_work(*scene, effort, measured);
+                measure_choices(*scene, effort, measured);
+                measure_ladder(*scene, options, measured);
+            }
+            if (is_among(effort.modes, name)) measure_modes(*scene, effort, measured);
+            if (is_among(effort.scenes, name)) measure_peers(*scene, options, measured);
+        }
+        progress.step();
+    }
+    measure_sizes(options, measured);
+    measure_aimed(options, measured);
+    return measured;
+}
+
+std::uint64_t wrong_answers(const FastMeasurements& measured) {
+    std::uint64_t wrong = 0;
+    for (const PeerPoint& p : measured.peers) wrong += p.differ;
+    for (const ModePoint& p : measured.modes) wrong += p.differ;
+    for (const KernelPoint& p : measured.kernels) wrong += p.differ;
+    for (const AimedPoint& p : measured.aimed) wrong += p.tracer.starts_with("ours") ? p.wrong : 0;
+    return wrong;
+}
+
+}  // namespace space::ch10
