@@ -63,14 +63,13 @@ inline int plane_above(const CompressedNode& node, std::size_t axis, float x) {
     return q;
 }
 
-/// The smallest step with which plane 255 is not below x.
-inline std::uint8_t smallest_step(CompressedNode node, std::size_t axis, float x) {
+/// Takes the smallest step with which plane 255 is not below x.
+inline void take_step(CompressedNode& node, std::size_t axis, float x) {
     const double step = (double{x} - double{node.origin[axis]}) / 255.0;
     int exponent = std::clamp(step > 0.0 ? std::ilogb(step) + 127 : 1, 1, 254);
     node.exponents[axis] = static_cast<std::uint8_t>(exponent);
     while (exponent < 254 && !(node.plane(axis, 255) >= x))
         node.exponents[axis] = static_cast<std::uint8_t>(++exponent);
-    return node.exponents[axis];
 }
 // [outward]
 
@@ -87,7 +86,7 @@ inline CompressedNode compressed(const WideNode<8>& node) {
     }
     for (std::size_t axis = 0; axis < 3 && small.count > 0; ++axis) {
         small.origin[axis] = all.min[int(axis)];
-        small.exponents[axis] = smallest_step(small, axis, all.max[int(axis)]);
+        take_step(small, axis, all.max[int(axis)]);
         for (std::size_t i = 0; i < small.count; ++i) {
             const Aabb box = node.box(used[i]);
             small.planes[axis][i] =
