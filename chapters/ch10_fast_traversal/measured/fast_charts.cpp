@@ -24,6 +24,17 @@ std::vector<std::string> different(const std::vector<Point>& points, Field Point
     return names;
 }
 
+/// "soup" for "soup:1000000": a name that stands below bars.
+std::string brief(const std::string& scene) {
+    return scene.substr(0, scene.find_first_of(":_"));
+}
+template <class Point>
+std::vector<std::string> brief_scenes(const std::vector<Point>& points) {
+    std::vector<std::string> names = different(points, &Point::scene);
+    std::ranges::transform(names, names.begin(), brief);
+    return names;
+}
+
 bool is_embree(std::string_view name) {
     return name.starts_with("Embree");
 }
@@ -140,21 +151,27 @@ Chart aimed_chart(const std::vector<AimedPoint>& aimed) {
 }
 
 Chart modes_chart(const std::vector<ModePoint>& modes, RayKind kind) {
+    // Diffuse rays are in an order by chance, as they come after a few bounces.
+    const std::string order = kind == diffuse_kind ? ", by chance" : "";
     Chart chart{.title = fmt::format("{} rays per second by mode, single rays = 1",
                                      kind == camera_kind ? "Camera" : "Diffuse"),
                 .x_label = "scene",
                 .y_label = fmt::format("{} rays per second, single = 1", ray_kinds[kind]),
                 .kind = ChartKind::bars,
                 .series = {},
-                .categories = different(modes, &ModePoint::scene)};
-    for (const std::string& mode : different(modes, &ModePoint::mode)) {
-        if (mode == "single") continue;
+                .categories = brief_scenes(modes)};
+    const auto shown =
+        kind == camera_kind
+            ? std::vector<std::string>{"interleaved 8", "packets 16", "packets 64"}
+            : std::vector<std::string>{"interleaved 8", "sorted, single", "sorted, interleaved 8",
+                                       "sorted, packets 16"};
+    for (const std::string& mode : shown)
         chart.add_bars(mode, [&](const std::string& scene) {
             for (const ModePoint& p : modes)
-                if (p.scene == scene && p.mode == mode && p.kind == kind) return p.gain();
+                if (brief(p.scene) == scene && p.mode == mode + order && p.kind == kind)
+                    return p.gain();
             return 0.0;
         });
-    }
     return chart;
 }
 
@@ -165,11 +182,12 @@ Chart fast_peers_chart(const std::vector<PeerPoint>& peers, RayKind kind) {
                 .y_label = fmt::format("{} rays per second, Embree = 1", ray_kinds[kind]),
                 .kind = ChartKind::bars,
                 .series = {},
-                .categories = different(peers, &PeerPoint::scene)};
+                .categories = brief_scenes(peers)};
     const auto add = [&](std::string_view name, double PeerPoint::*ns) {
         chart.add_bars(name, [&](const std::string& scene) {
             for (const PeerPoint& p : peers)
-                if (p.scene == scene && p.kind == kind) return p.embree_ns / p.*ns;
+                if (brief(p.scene) == scene && p.kind == kind && p.*ns > 0.0)
+                    return p.embree_ns / p.*ns;
             return 0.0;
         });
     };
