@@ -14,11 +14,11 @@ Chart fig_10_03(const Options& options) {
 }
 
 Chart fig_10_04(const Options& options) {
-    return aimed_chart(measured_once<measure_fast>(options).aimed);
+    return fast_peers_chart(measured_once<measure_fast>(options).peers, diffuse_kind);
 }
 
 Chart fig_10_05(const Options& options) {
-    return fast_peers_chart(measured_once<measure_fast>(options).peers, diffuse_kind);
+    return aimed_chart(measured_once<measure_fast>(options).aimed);
 }
 
 Chart fig_10_06(const Options& options) {
