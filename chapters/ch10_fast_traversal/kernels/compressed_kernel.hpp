@@ -47,6 +47,9 @@ SPACE_INLINE unsigned met_compressed(const char* node, const NodeRay<8>& ray, Fl
 /// A CompressedTree.
 struct CompressedLayout {
     static constexpr int width = 8;
+    static constexpr uint32_t index_mask = ~leaf_bit;
+    static constexpr uint32_t strides[2]{96, 16};  ///< of a node and of a triangle
+    static constexpr unsigned lines = 2;
 
     SPACE_INLINE static unsigned met(const KernelTree& tree, uint32_t child, const NodeRay<8>& ray,
                                      Float8 limit, Float8& enter, const uint32_t*& children) {

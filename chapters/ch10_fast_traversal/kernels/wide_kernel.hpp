@@ -101,20 +101,73 @@ SPACE_INLINE uint64_t waiting(float enter, uint32_t child) {
     return uint64_t(__builtin_bit_cast(uint32_t, enter)) << 32 | child;
 }
 
+// [branch_to_child]
+/// children[place] by a branch to one of eight places in the program instead of an address that is
+/// computed. The processor guesses where a branch goes: it then tests the next node while this
+/// one's distances are still being compared. (An empty line of assembler for each keeps the
+/// compiler from making one load of all.)
+template <int N>
+SPACE_INLINE uint32_t taken(const uint32_t* children, unsigned place) {
+#define SPACE_TAKE(i)                       \
+    case i: {                               \
+        uint32_t child = children[(i) % N]; \
+        asm("# child " #i : "+r"(child));   \
+        return child;                       \
+    }
+    switch (place) {
+        SPACE_TAKE(0)
+        SPACE_TAKE(1)
+        SPACE_TAKE(2)
+        SPACE_TAKE(3)
+        SPACE_TAKE(4)
+        SPACE_TAKE(5)
+        SPACE_TAKE(6)
+        SPACE_TAKE(7)
+        default:
+            __builtin_unreachable();
+    }
+#undef SPACE_TAKE
+}
+// [branch_to_child]
+
+/// Does nothing for a child that will wait.
+struct NothingWaits {
+    SPACE_INLINE void operator()(uint32_t) const {}
+};
+/// Asks for its cache lines.
+template <class Layout>
+struct FetchWaiting {
+    const KernelTree& tree;
+    SPACE_INLINE void operator()(uint32_t child) const {
+        // By tables of two: whether it is a leaf, nobody could guess.
+        const char* const place = (&tree.nodes)[child >> 31] +
+                                  (child & Layout::index_mask) * Layout::strides[child >> 31];
+        for (unsigned line = 0; line < Layout::lines; ++line) __builtin_prefetch(place + 64 * line);
+    }
+};
+
 // [wide_order]
 /// The nearest of the met children; the others go onto the stack, the nearest on top.
-template <int N>
+template <int N, class Waits = NothingWaits>
 SPACE_INLINE uint32_t nearest_of(const uint32_t* children, unsigned met, Floats<N> enter,
-                                 uint64_t*& top) {
+                                 uint64_t*& top, Waits waits = {}) {
     const unsigned first = unsigned(__builtin_ctz(met));
     met &= met - 1;
-    if (met == 0) return children[first];
+    if (met == 0) return taken<N>(children, first);
     const unsigned second = unsigned(__builtin_ctz(met));
     met &= met - 1;
     alignas(32) float enters[N];
     *reinterpret_cast<Floats<N>*>(enters) = enter;
     uint64_t a = waiting(enters[first], children[first]),
              b = waiting(enters[second], children[second]);
+    if (met == 0) {
+        const bool swap = b < a;
+        *top++ = swap ? a : b;
+        waits(uint32_t(top[-1]));
+        return taken<N>(children, swap ? second : first);
+    }
+    waits(uint32_t(a));
+    waits(uint32_t(b));
     if (b < a) {
         const uint64_t c = a;
         a = b;
@@ -127,6 +180,7 @@ SPACE_INLINE uint32_t nearest_of(const uint32_t* children, unsigned met, Floats<
         const unsigned next = unsigned(__builtin_ctz(met));
         met &= met - 1;
         const uint64_t c = waiting(enters[next], children[next]);
+        waits(uint32_t(c));
         uint64_t* place = top++;
         for (; place != bottom && place[-1] < c; --place) *place = place[-1];
         *place = c;
@@ -180,6 +234,9 @@ SPACE_INLINE float box_limit(float limit) {
 template <int N>
 struct WideLayout {
     static constexpr int width = N;
+    static constexpr uint32_t index_mask = 0x0fffffff;
+    static constexpr uint32_t strides[2]{N * 32, block_bytes};  ///< of a node and of a block
+    static constexpr unsigned lines = N / 2;
 
     /// The children that the ray meets, and their words.
     SPACE_INLINE static unsigned met(const KernelTree& tree, uint32_t child, const NodeRay<N>& ray,
@@ -213,6 +270,7 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
     KernelRay ray;
     if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
+    const FetchWaiting<Layout> waits{tree};
     float ends = ray.limit;
     Floats<N> limit = all<N>(box_limit(ray.limit));
     uint64_t* const bottom =
@@ -229,7 +287,7 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
                 is_over = true;
                 break;
             }
-            child = nearest_of<N>(children, met, enter, top);
+            child = nearest_of<N>(children, met, enter, top, waits);
         }
         if (!is_over) {
             for (typename Layout::Leaf leaf(tree, child); leaf.has_block(); leaf.take_next()) {
@@ -257,6 +315,7 @@ SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
     KernelRay ray;
     if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
+    const FetchWaiting<Layout> waits{tree};
     const Floats<N> limit = all<N>(box_limit(ray.limit));
     uint32_t* const bottom =
         static_cast<uint32_t*>(__builtin_alloca(tree.stack_size * sizeof(uint32_t)));
@@ -268,8 +327,10 @@ SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
             const uint32_t* children;
             Floats<N> enter;
             for (unsigned met = Layout::met(tree, child, node_ray, limit, enter, children);
-                 met != 0; met &= met - 1)
+                 met != 0; met &= met - 1) {
                 *top++ = children[__builtin_ctz(met)];
+                waits(top[-1]);
+            }
             continue;
         }
         for (typename Layout::Leaf leaf(tree, child); leaf.has_block(); leaf.take_next()) {
