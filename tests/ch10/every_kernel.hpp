@@ -1,9 +1,10 @@
 /// @file
-/// The chapter's structures under one roof for tests: each width with each instruction set that
-/// this processor has.
+/// The chapter's structures under one roof for tests: each width, and compressed nodes, with
+/// each instruction set that this processor has.
 #pragma once
 
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
+#include "chapters/ch10_fast_traversal/compressed_bvh.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/instruction_set.hpp"
 #include "common/geometry.hpp"
@@ -27,10 +28,22 @@ void for_each_kernel_of(std::span<const Triangle> triangles, const Check& check,
     }
 }
 template <class Builder = BinnedBuilder, class Check>
+void for_each_compressed(std::span<const Triangle> triangles, const Check& check,
+                         const WideBvhConfig<Builder>& config = {}) {
+    for (const InstructionSet set : usable_instruction_sets()) {
+        WideBvhConfig<Builder> with = config;
+        with.instructions = set;
+        const std::string name = "compressed, " + std::string(name_of(set));
+        INFO(name);
+        check(BasicCompressedBvh<Builder>::build(triangles, with), name);
+    }
+}
+template <class Builder = BinnedBuilder, class Check>
 void for_each_kernel(std::span<const Triangle> triangles, const Check& check,
                      const WideBvhConfig<Builder>& config = {}) {
     for_each_kernel_of<4, Builder>(triangles, check, config);
     for_each_kernel_of<8, Builder>(triangles, check, config);
+    for_each_compressed<Builder>(triangles, check, config);
 }
 
 }  // namespace space

@@ -2,6 +2,7 @@
 /// What is wrong with a wide tree, in words.
 #pragma once
 
+#include "chapters/ch10_fast_traversal/compressed_tree.hpp"
 #include "chapters/ch10_fast_traversal/wide_tree.hpp"
 #include "common/geometry.hpp"
 
@@ -93,6 +94,61 @@ std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> trian
     if (std::ranges::count(node_used, 0u) != 0) return "a node without a parent";
     if (std::ranges::count(block_used, 0u) != 0) return "a block without a leaf";
     return tree.stack_size() < std::size_t(depth) * (N - 1) + 1 ? "too small a stack" : "";
+}
+
+/// The same of a compressed tree, but for boxes: those of children may exceed their parent's. (That
+/// none is smaller than it was has a test of its own.)
+inline std::string wide_faults(const CompressedTree& tree, std::span<const Triangle> triangles) {
+    struct Waiting {
+        WideChild child;
+        unsigned depth;
+    };
+    const auto is_whole = [&](const Triangle& t) { return !box_if_finite<3>(t).is_empty(); };
+    if (tree.empty())
+        return std::ranges::any_of(triangles, is_whole) ? "an empty tree over triangles" : "";
+    std::vector<unsigned> named(triangles.size()), node_used(tree.nodes.size());
+    std::vector<Waiting> waiting{{*tree.root, 0}};
+    unsigned depth = 0;
+    std::size_t leaves = 0, references = 0;
+    std::string fault;
+    while (!waiting.empty() && fault.empty()) {
+        const auto [child, level] = waiting.back();
+        waiting.pop_back();
+        depth = std::max(depth, level);
+        if (!child.is_leaf()) {
+            if (child.index() >= tree.nodes.size()) return "a child that is no node";
+            if (node_used[child.index()]++ != 0) return "a node with two parents";
+            const CompressedNode& node = tree.nodes[child.index()];
+            if (node.count < 2)
+                return fmt::format("node {}: {} children", child.index(), node.count);
+            for (std::size_t i = 0; i < node.count; ++i)
+                waiting.push_back({node.children[i], level + 1});
+            continue;
+        }
+        ++leaves;
+        tree.each_block(child, [&](const TriangleBlock& block) {
+            for (std::size_t lane = 0; lane < TriangleBlock::size && block.is_used(lane); ++lane) {
+                const std::uint32_t index = block.indices[lane];
+                if (index >= triangles.size())
+                    fault = "a triangle that is none";
+                else if (!(block.triangle(lane) == triangles[index]))
+                    fault = fmt::format("triangle {} has changed", index);
+                else
+                    ++named[index];
+                ++references;
+            }
+            return fault.empty();
+        });
+    }
+    if (!fault.empty()) return fault;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        if ((named[i] > 0) != is_whole(triangles[i]))
+            return fmt::format("triangle {}: in {} leaves", i, named[i]);
+    if (depth != tree.depth) return fmt::format("depth {}, not {}", tree.depth, depth);
+    if (leaves != tree.leaves) return fmt::format("{} leaves, not {}", tree.leaves, leaves);
+    if (references != tree.triangles.size()) return "triangles in no leaf";
+    if (std::ranges::count(node_used, 0u) != 0) return "a node without a parent";
+    return tree.stack_size() < std::size_t(depth) * 7 + 1 ? "too small a stack" : "";
 }
 
 }  // namespace space
