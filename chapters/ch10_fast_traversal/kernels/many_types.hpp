@@ -13,12 +13,11 @@ inline constexpr uint32_t most_packet_rays = 64;
 
 /// Rays side by side, whose directions have the same signs.
 struct alignas(64) PacketRays {
-    float origin[3][most_packet_rays];
+    float origin[3][most_packet_rays], direction[3][most_packet_rays];
     /// Reciprocals of the direction, a little short for near planes, a little long for far ones.
     float near_inverse[3][most_packet_rays], far_inverse[3][most_packet_rays];
     float tmin[most_packet_rays], tmax[most_packet_rays];
     float limit[most_packet_rays];  ///< beyond it nothing matters to the ray
-    double direction[3][most_packet_rays], length[most_packet_rays];  ///< its sum of sizes
     /// The nearest hits so far: at infinity, by no triangle.
     float t[most_packet_rays], u[most_packet_rays], v[most_packet_rays];
     uint32_t triangle[most_packet_rays];
@@ -30,10 +29,12 @@ struct alignas(64) PacketRays {
     float longest;  ///< not below any direction's sum of sizes, but for roundings
     float least_tmin;
     uint32_t near_row[3], far_row[3];
-    uint32_t count;       ///< of the rays; places behind them are over before they begin
-    bool has_one_origin;  ///< as a camera's rays have
-    bool is_any_asked;    ///< then the first hit ends a ray
-    const float* rays;    ///< as they came: origin, direction, tmin, tmax
+    uint32_t count;             ///< of the rays; places behind them are over before they begin
+    bool has_one_origin;        ///< as a camera's rays have
+    bool is_any_asked;          ///< then the first hit ends a ray
+    uint64_t prepared_singles;  ///< which of `singles` have been made: where few rays are left
+    KernelRay singles[most_packet_rays];
+    const float* rays;  ///< as they came: origin, direction, tmin, tmax
 };
 
 /// A ray's place in the packet puts one triangle of a block to chapter 2's exact test; a nearer hit

@@ -73,9 +73,6 @@ SPACE_INLINE HalfFloats half_at(const float* all) {
 SPACE_INLINE RayFloats rays_at(const float* all) {
     return *reinterpret_cast<const RayFloats*>(all);
 }
-SPACE_INLINE RayDoubles rays_at(const double* all) {
-    return *reinterpret_cast<const RayDoubles*>(all);
-}
 
 /// A child that waits for some of the rays, none of which enters it before `enter`.
 struct WaitingChild {
@@ -313,10 +310,10 @@ SPACE_INLINE bool test_triangle(const float* block, unsigned lane, PacketRays& r
     for (unsigned first = 0; first < rays.count; first += half_lanes) {
         const unsigned here = unsigned(some >> first) & ((1u << half_lanes) - 1);
         if (here == 0) continue;
-        const RayDoubles d[3] = {rays_at(rays.direction[0] + first),
-                                 rays_at(rays.direction[1] + first),
-                                 rays_at(rays.direction[2] + first)};
-        const RayDoubles length = rays_at(rays.length + first);
+        RayDoubles d[3];
+        for (int axis = 0; axis < 3; ++axis)
+            d[axis] = __builtin_convertvector(half_at(rays.direction[axis] + first), RayDoubles);
+        const RayDoubles length = size_of_three(d);
         PacketVerdict verdict;
         if (has_one_origin) {
             verdict = packet_filter(triangle, shared, d, length, here);
@@ -387,14 +384,51 @@ SPACE_INLINE float most_limit(const PacketRays& rays) {
     return limit;
 }
 
+/// Up to so many rays a leaf's four triangles are tested for one ray after the other: a packet
+/// whose rays have parted would test one triangle after the other, for lanes that are mostly empty.
+constexpr unsigned few_rays = 3;
+
+/// The same by the walk of single rays.
+SPACE_INLINE bool test_leaf_singly(const KernelTree& tree, const char* block, PacketRays& rays,
+                                   uint64_t some) {
+    bool is_changed = false;
+    for (; some != 0; some &= some - 1) {
+        const unsigned i = unsigned(__builtin_ctzll(some));
+        KernelRay& ray = rays.singles[i];
+        if ((rays.prepared_singles >> i & 1) == 0) {
+            prepared(tree, rays.rays + 8 * i, ray);
+            rays.prepared_singles |= UINT64_C(1) << i;
+        }
+        KernelHit best{rays.t[i], rays.u[i], rays.v[i], rays.triangle[i]};
+        const float after = float_after(best.t);
+        const float ends = best.triangle != no_kernel_hit && after < ray.limit ? after : ray.limit;
+        const unsigned lanes = filter_leaf<false>(block, ray, ends).may_hit;
+        if (lanes == 0) continue;
+        take_hits(tree, ray, block, lanes, best);
+        if (best.triangle == rays.triangle[i]) continue;
+        rays.t[i] = best.t;
+        rays.u[i] = best.u;
+        rays.v[i] = best.v;
+        rays.triangle[i] = best.triangle;
+        set_limit(rays, i);
+        is_changed = true;
+    }
+    return is_changed;
+}
+
 /// A leaf's triangles, each against all rays that come to it.
 template <bool has_one_origin>
 SPACE_INLINE bool test_leaf(const KernelTree& tree, uint32_t child, PacketRays& rays, uint64_t some,
                             ExactPacketLane exact, PacketCounts& counts) {
     bool is_changed = false;
+    const bool is_few = __builtin_popcountll(some) <= int(few_rays);
     const char* place = tree.blocks + (child & 0x0fffffff) * block_bytes;
     for (unsigned count = (child >> 28 & 7) + 1; count > 0; --count, place += block_bytes) {
         ++counts.blocks;
+        if (is_few) {
+            is_changed |= test_leaf_singly(tree, place, rays, some);
+            continue;
+        }
         const unsigned left =
             has_one_origin ? triangles_met_by_any(reinterpret_cast<const float*>(place), rays) : 15;
         for (unsigned lane = 0; lane < 4; ++lane) {
@@ -457,18 +491,18 @@ template <bool has_one_origin>
 }
 // [packets]
 
-/// The least and the largest of some floats, the first `count` of them.
+/// The least and the largest of some floats.
 struct Range {
     float low, high;
 };
 SPACE_INLINE Range range_of(const float* numbers, unsigned count) {
-    RayFloats low = rays_at(numbers), high = low;
-    for (unsigned first = ray_lanes; first < count; first += ray_lanes) {
-        low = smaller(low, rays_at(numbers + first));
-        high = larger(high, rays_at(numbers + first));
+    Float4 low = load<4>(numbers), high = low;
+    for (unsigned first = 4; first < count; first += 4) {
+        low = smaller(low, load<4>(numbers + first));
+        high = larger(high, load<4>(numbers + first));
     }
     Range range{low[0], high[0]};
-    for (unsigned i = 1; i < ray_lanes; ++i) {
+    for (int i = 1; i < 4; ++i) {
         range.low = low[i] < range.low ? low[i] : range.low;
         range.high = high[i] > range.high ? high[i] : range.high;
     }
@@ -476,12 +510,12 @@ SPACE_INLINE Range range_of(const float* numbers, unsigned count) {
 }
 
 /// Rays as they come, eight floats each, side by side. Places behind the last hold it again.
-SPACE_INLINE void lay_side_by_side(PacketRays& rays, unsigned places, float (&direction)[3][64]) {
+SPACE_INLINE void lay_side_by_side(PacketRays& rays, unsigned places) {
     for (unsigned i = 0; i < places; ++i) {
         const float* const ray = rays.rays + 8 * (i < rays.count ? i : rays.count - 1);
         for (int axis = 0; axis < 3; ++axis) {
             rays.origin[axis][i] = ray[axis];
-            direction[axis][i] = ray[axis + 3];
+            rays.direction[axis][i] = ray[axis + 3];
         }
         rays.tmin[i] = ray[6] + 0.0f;  // not -0
         rays.tmax[i] = ray[7];
@@ -490,61 +524,54 @@ SPACE_INLINE void lay_side_by_side(PacketRays& rays, unsigned places, float (&di
 
 // [fill_packet]
 /// What prepare_kernel_ray asks of a ray, of all, along one axis: floats in range, and one sign.
-SPACE_INLINE bool prepare_axis(PacketRays& rays, int axis, const float (&d)[64], unsigned places,
-                               float largest) {
-    constexpr float u = 0x1p-24f;
-    const Range origin = range_of(rays.origin[axis], places), direction = range_of(d, places);
+SPACE_INLINE bool prepare_axis(PacketRays& rays, int axis, unsigned places, float largest) {
+    constexpr float u = 0x1p-24f, shorter = 1.0f - 4.0f * u, longer = 1.0f + 6.0f * u;
+    const RayFloats most = RayFloats{} + largest, least = RayFloats{} + 0x1p-90f;
+    const bool backwards = rays.direction[axis][0] < 0.0f;
+    const RayFloats sign = RayFloats{} + (backwards ? -1.0f : 1.0f);
+    constexpr unsigned everyone = (1u << ray_lanes) - 1;
+    unsigned fit = everyone;
+    for (unsigned first = 0; first < places; first += ray_lanes) {
+        const RayFloats o = rays_at(rays.origin[axis] + first),
+                        d = rays_at(rays.direction[axis] + first), speed = d * sign;
+        // What is not a number fails each comparison.
+        fit &= at_most(-most, o) & at_most(o, most) & at_most(least, speed) & at_most(speed, most);
+        const RayFloats inverse = 1.0f / d;
+        *reinterpret_cast<RayFloats*>(rays.near_inverse[axis] + first) = inverse * shorter;
+        *reinterpret_cast<RayFloats*>(rays.far_inverse[axis] + first) = inverse * longer;
+    }
+    const Range origin = range_of(rays.origin[axis], places),
+                direction = range_of(rays.direction[axis], places);
     rays.direction_low[axis] = direction.low;
     rays.direction_high[axis] = direction.high;
-    const bool backwards = direction.high < 0.0f;
-    const float slow = backwards ? -direction.high : direction.low,
-                fast = backwards ? -direction.low : direction.high;
-    if (!(origin.low >= -largest && origin.high <= largest && slow >= 0x1p-90f && fast <= largest))
-        return false;
-    for (unsigned first = 0; first < places; first += ray_lanes) {
-        const RayFloats inverse = 1.0f / rays_at(d + first);
-        *reinterpret_cast<RayFloats*>(rays.near_inverse[axis] + first) =
-            inverse * (1.0f - 4.0f * u);
-        *reinterpret_cast<RayFloats*>(rays.far_inverse[axis] + first) = inverse * (1.0f + 6.0f * u);
-    }
-    const Range near = range_of(rays.near_inverse[axis], places),
-                far = range_of(rays.far_inverse[axis], places);
     rays.near_origin[axis] = backwards ? origin.low : origin.high;
     rays.far_origin[axis] = backwards ? origin.high : origin.low;
-    rays.near_low[axis] = near.low;
-    rays.near_high[axis] = near.high;
-    rays.far_low[axis] = far.low;
-    rays.far_high[axis] = far.high;
+    // 1 / d falls as d grows, and rounding keeps the order: these are the inverses' ranges.
+    const float low = 1.0f / direction.high, high = 1.0f / direction.low;
+    rays.near_low[axis] = low * shorter;
+    rays.near_high[axis] = high * shorter;
+    rays.far_low[axis] = low * longer;
+    rays.far_high[axis] = high * longer;
     rays.near_row[axis] = unsigned(axis) + (backwards ? 3 : 0);
     rays.far_row[axis] = unsigned(axis) + (backwards ? 0 : 3);
     rays.has_one_origin = rays.has_one_origin && origin.low == origin.high;
-    rays.longest += fast;
-    return true;
+    rays.longest += backwards ? -direction.low : direction.high;
+    return fit == everyone;
 }
 // [fill_packet]
 
-/// The rest, for triangles and for the walk.
+/// The rest.
 SPACE_INLINE bool prepare_packet(PacketRays& rays, float largest) {
     const unsigned places = (rays.count + ray_lanes - 1) / ray_lanes * ray_lanes;
-    alignas(64) float d[3][64];
-    lay_side_by_side(rays, places, d);
-    const Range tmin = range_of(rays.tmin, places);
-    rays.least_tmin = tmin.low;
+    lay_side_by_side(rays, places);
     rays.longest = 0.0f;
+    rays.prepared_singles = 0;
     rays.has_one_origin = true;
-    bool is_fit = tmin.low >= 0.0f;
-    for (int axis = 0; axis < 3 && is_fit; ++axis)
-        is_fit = prepare_axis(rays, axis, d[axis], places, largest);
-    for (unsigned i = 0; i < places && is_fit; ++i) {
-        // What is not a number is smaller than nothing: ranges may have passed it over.
-        is_fit = rays.tmin[i] <= rays.tmax[i];
-        for (int axis = 0; axis < 3; ++axis) {
-            is_fit &=
-                rays.origin[axis][i] - rays.origin[axis][i] == 0.0f && d[axis][i] == d[axis][i];
-            rays.direction[axis][i] = double(d[axis][i]);
-        }
-        rays.length[i] = size_of(rays.direction[0][i]) + size_of(rays.direction[1][i]) +
-                         size_of(rays.direction[2][i]);
+    bool is_fit = true;
+    for (int axis = 0; axis < 3; ++axis) is_fit &= prepare_axis(rays, axis, places, largest);
+    rays.least_tmin = range_of(rays.tmin, places).low;
+    for (unsigned i = 0; i < places; ++i) {
+        is_fit &= rays.tmin[i] >= 0.0f && rays.tmin[i] <= rays.tmax[i];
         rays.limit[i] = i < rays.count ? limit_after(rays.tmax[i]) : -1.0f;
         rays.t[i] = __builtin_inff();
         rays.triangle[i] = no_kernel_hit;

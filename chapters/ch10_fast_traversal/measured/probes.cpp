@@ -3,6 +3,7 @@
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
 #include "chapters/ch10_fast_traversal/pointer_chase.hpp"
+#include "common/random.hpp"
 #include "common/scene.hpp"
 
 #include <algorithm>
