@@ -19,8 +19,9 @@ struct FastScene {
 /// By the options' amount. rounds = 0: nothing is timed.
 struct FastEffort {
     int width = 320, height = 240, rounds = 5;
-    std::vector<FastScene> scenes;  ///< beside Embree
-    std::vector<FastScene> ladder;  ///< a small one, a large one, one of long triangles
+    int mode_width = 640, mode_height = 480;  ///< packets hang on how many pixels a triangle has
+    std::vector<FastScene> scenes;            ///< beside Embree
+    std::vector<FastScene> ladder;            ///< a small one, a large one, one of long triangles
     std::vector<FastScene> modes;
     std::vector<std::string> sizes;  ///< one scene as it grows
     std::vector<std::string> aimed;  ///< small enough for the naive loop
@@ -40,6 +41,7 @@ inline FastEffort fast_effort(const Options& options) {
     effort.aimed = {"icosphere:8", "lattice:1", "slivers"};
     if (options.amount() == Amount::quick) {
         effort.width = 160, effort.height = 120, effort.rounds = 3;
+        effort.mode_width = 320, effort.mode_height = 240;
         effort.scenes = {{"stadium"}, {"icosphere:40"}, {"soup:30000"}, {"building", true}};
         effort.ladder = {{"stadium"}, {"icosphere:70"}, {"building", true}};
         effort.modes = {{"stadium"}, {"icosphere:70"}};
@@ -48,6 +50,7 @@ inline FastEffort fast_effort(const Options& options) {
     }
     if (options.small) {
         effort.width = 32, effort.height = 24;
+        effort.mode_width = 32, effort.mode_height = 24;
         effort.scenes = {{"soup:1000"}, {"slivers:300", true}};
         effort.ladder = {{"stadium:2"}, {"icosphere:20"}, {"slivers:300", true}};
         effort.modes = {{"stadium:2"}};

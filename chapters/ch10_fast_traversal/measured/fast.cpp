@@ -21,9 +21,8 @@ FastMeasurements measure_fast(const Options& options) {
     FastMeasurements measured;
     measure_probes(effort, measured);
     std::vector<FastScene> all = effort.ladder;
-    for (const auto* const more : {&effort.modes, &effort.scenes})
-        for (const FastScene& scene : *more)
-            if (!is_among(all, scene.name)) all.push_back(scene);
+    for (const FastScene& scene : effort.scenes)
+        if (!is_among(all, scene.name)) all.push_back(scene);
     Progress progress("scenes", all.size());
     for (const auto& [name, is_long] : all) {
         if (const std::optional<TracedScene> scene =
@@ -33,11 +32,14 @@ FastMeasurements measure_fast(const Options& options) {
                 measure_choices(*scene, effort, measured);
                 measure_ladder(*scene, options, measured);
             }
-            if (is_among(effort.modes, name)) measure_modes(*scene, effort, measured);
             if (is_among(effort.scenes, name)) measure_peers(*scene, options, measured);
         }
         progress.step();
     }
+    for (const auto& [name, is_long] : effort.modes)
+        if (const std::optional<TracedScene> scene =
+                traced_scene(name, is_long, effort.mode_width, effort.mode_height, options))
+            measure_modes(*scene, effort, measured);
     measure_sizes(options, measured);
     measure_aimed(options, measured);
     return measured;
