@@ -5,10 +5,12 @@
 
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/optimised_builder.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/spatial_split_builder.hpp"
 #include "chapters/ch10_fast_traversal/collapse.hpp"
 #include "chapters/ch10_fast_traversal/instruction_set.hpp"
 #include "chapters/ch10_fast_traversal/kernels/kernel_table.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 #include "chapters/ch10_fast_traversal/wide_tree.hpp"
 #include "chapters/ch10_fast_traversal/wide_walk.hpp"
 #include "common/accelerator.hpp"
@@ -140,6 +142,23 @@ class WideBvh {
 
 /// The best for one ray at a time.
 template <TriangleTest Test = FilteredExact>
-using FastBvh = WideBvh<8, BinnedBuilder, Test>;
+using FastBvh = WideBvh<8, QuickBuilder, Test>;
+
+/// A tree for rays, however long it takes to build: spatial splits, then subtrees put back where
+/// they cost least.
+struct HighQualityBuilder {
+    /// Of the two builders, one after the other.
+    struct Config {
+        SpatialSplitConfig splits{.costs = {0.0, 1.0}, .max_leaf_size = 1};
+        OptimisedBuilder::Config moves{.max_leaf_size = 1};
+    };
+    template <int D = 3>
+    static BvhNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {}) {
+        return OptimisedBuilder::improved<D>(SpatialSplitBuilder::build<D>(polygons, config.splits),
+                                             config.moves);
+    }
+};
+template <TriangleTest Test = FilteredExact>
+using FastHighBvh = WideBvh<8, HighQualityBuilder, Test>;
 
 }  // namespace space
