@@ -30,6 +30,7 @@ std::vector<Structure> ch06_structures();
 std::vector<Structure> ch07_structures();
 std::vector<Structure> ch08_structures();
 std::vector<Structure> ch09_structures();
+std::vector<Structure> ch10_structures();
 
 const std::vector<Structure>& structures() {
     static const std::vector<Structure> all = joined({
@@ -41,6 +42,7 @@ const std::vector<Structure>& structures() {
         {"chapter 7", ch07_structures()},
         {"chapter 8", ch08_structures()},
         {"chapter 9", ch09_structures()},
+        {"chapter 10", ch10_structures()},
     });
     return all;
 }
