@@ -6,6 +6,7 @@
 
 #include "chapters/ch07_bounding_volume_hierarchies/bvh_boxes.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/bvh_nodes.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/cache_line_allocator.hpp"
 #include "chapters/ch10_fast_traversal/float_box.hpp"
 #include "common/geometry.hpp"
 
@@ -35,10 +36,7 @@ class QuickBuild {
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
             const Triangle& t = triangles[i];
             if (!is_finite<3>(t.a) || !is_finite<3>(t.b) || !is_finite<3>(t.c)) continue;
-            Item item{{four_of(t.a), four_of(t.a)}, i};
-            item.box.extend(four_of(t.b));
-            item.box.extend(four_of(t.c));
-            items_.push_back(item);
+            items_.emplace_back(t, i);
         }
     }
 
@@ -48,6 +46,7 @@ class QuickBuild {
         tree_.nodes.reserve(2 * items_.size());
         tree_.nodes.resize(2);
         tree_.references.resize(items_.size());
+        spare_.resize(items_.size());
         std::vector<Task> waiting{{.node = 0, .end = items_.size(), .part = part_of(items_)}};
         while (!waiting.empty()) {
             const Task task = waiting.back();
@@ -73,10 +72,21 @@ class QuickBuild {
     // [quick_run]
 
   private:
-    /// A triangle: where it is, and which.
+    /// A triangle: where it is, and which. The fourth floats hold the index's halves, as small
+    /// whole numbers: as bits they could be floats with which no processor likes to reckon.
     struct Item {
         FloatBox box;
-        std::uint32_t triangle;
+
+        Item() = default;
+        Item(const Triangle& t, std::uint32_t index) : box{four_of(t.a), four_of(t.a)} {
+            box.extend(four_of(t.b));
+            box.extend(four_of(t.c));
+            box.low[3] = float(index >> 16);
+            box.high[3] = float(index & 0xffff);
+        }
+        std::uint32_t triangle() const {
+            return std::uint32_t(box.low[3]) << 16 | std::uint32_t(box.high[3]);
+        }
     };
     /// What is known of a range: the box around all, and that around their middles.
     struct Part {
@@ -113,7 +123,7 @@ class QuickBuild {
         tree_.nodes[task.node].first = static_cast<std::uint32_t>(task.begin);
         tree_.nodes[task.node].count = static_cast<std::uint32_t>(range.size());
         for (std::size_t i = 0; i < range.size(); ++i)
-            tree_.references[task.begin + i] = range[i].triangle;
+            tree_.references[task.begin + i] = range[i].triangle();
     }
 
     Cut best_cut(const Part& part, std::span<Item> range) {
@@ -160,7 +170,7 @@ class QuickBuild {
     /// A cut before a bin; none before bin 0.
     struct Candidate {
         int axis = 0;
-        std::size_t bin = 0;
+        std::size_t bin = 0, bins = 0;
         float cost = infinity;
     };
     float blocks(std::size_t count) const {
@@ -186,27 +196,42 @@ class QuickBuild {
                 count += of[i - 1].count;
                 if (of[i - 1].count == 0 || count == size) continue;
                 const float cost = box.half_area() * blocks(count) + after[i];
-                if (cost < best.cost) best = {axis, i, cost};
+                if (cost < best.cost) best = {axis, i, bins, cost};
             }
         }
         return best;
     }
 
     // [quick_partition]
-    /// In place, from both ends; what goes where is measured as it goes.
+    /// In order and without a branch on what nobody can guess: each item is written to the end of
+    /// both parts, of which one grows. The first part stands where the range began, the second in a
+    /// spare room until the end. Boxes come from the bins; those around middles are measured here.
     template <class BinOf>
-    static Cut partitioned(std::span<Item> range, const Candidate& best, const BinOf& bin_of) {
+    Cut partitioned(std::span<Item> range, const Candidate& best, const BinOf& bin_of) {
         Cut cut{};
-        std::size_t i = 0, j = range.size();
-        while (i < j) {
-            if (static_cast<std::size_t>(bin_of(range[i].box)[best.axis]) < best.bin) {
-                cut.first.add(range[i++].box);
-            } else {
-                cut.second.add(range[i].box);
-                std::swap(range[i], range[--j]);
-            }
+        const auto& of = bins_[std::size_t(best.axis)];
+        for (std::size_t i = 0; i < best.bins; ++i)
+            (i < best.bin ? cut.first : cut.second).box.extend(of[i].box);
+        const FloatBox none;
+        FloatBox first, second;
+        std::size_t i = 0, j = 0;
+        for (const Item item : range) {
+            const bool is_second =
+                static_cast<std::size_t>(bin_of(item.box)[best.axis]) >= best.bin;
+            const FourInts mask = FourInts{} - int(is_second);
+            const FourFloats middle = item.box.middle();
+            first.low = smaller_of(first.low, mask ? none.low : middle);
+            first.high = larger_of(first.high, mask ? none.high : middle);
+            second.low = smaller_of(second.low, mask ? middle : none.low);
+            second.high = larger_of(second.high, mask ? middle : none.high);
+            range[i] = spare_[j] = item;
+            i += std::size_t(!is_second);
+            j += std::size_t(is_second);
         }
+        std::copy_n(spare_.begin(), j, range.begin() + std::ptrdiff_t(i));
         cut.count = i;
+        cut.first.middles = first;
+        cut.second.middles = second;
         return cut;
     }
     // [quick_partition]
@@ -241,7 +266,7 @@ class QuickBuild {
     // [quick_last]
 
     QuickConfig config_;
-    std::vector<Item> items_;
+    std::vector<Item, CacheLineAllocator<Item>> items_, spare_;  ///< in a spare room all find place
     std::array<std::array<Bin, most_bins>, 3> bins_;
     BvhNodes<3> tree_;
 };

@@ -34,3 +34,11 @@ TEST_CASE("the suite: kernels of each width and instruction set") {
                                                 });
     }
 }
+
+TEST_CASE("the suite: the default and the best tree") {
+    run_suite<FastBvh>("fast");
+    SuiteOptions some;
+    check_accelerator<FastHighBvh<>>(
+        "fast, high quality",
+        [](std::span<const Triangle> all) { return FastHighBvh<>::build(all); }, some.fewer());
+}

@@ -13,8 +13,8 @@ using FastFourBvh = WideBvh<4, QuickBuilder, Test>;
 
 /// With the walk for packets over the exact test.
 Structure with_packets(Structure structure) {
-    structure.variants.front().build = [](std::span<const Triangle> triangles,
-                                          const BuildOptions&) {
+    structure.variants.front().build_from_triangles = [](std::span<const Triangle> triangles,
+                                                         const BuildOptions&) {
         return erased_with_packets(FastBvh<>::build(triangles));
     };
     return structure;
