@@ -29,7 +29,9 @@ class WideCollapse {
     WideTree<N> run() {
         tree_.box = binary_.nodes[0].box;
         tree_.cost = choice_.cost();
-        tree_.blocks.reserve(binary_.references.size() / 2);
+        // More than most trees take; what is never touched takes no memory.
+        tree_.blocks.reserve(binary_.references.size() / 2 + 1);
+        tree_.nodes.reserve(binary_.references.size() / 8 + 1);
         Placed root = placed(0, 0);
         tree_.root = root.child;
         while (!waiting_.empty()) {
@@ -37,8 +39,6 @@ class WideCollapse {
             waiting_.pop_back();
             fill(task);
         }
-        tree_.nodes.shrink_to_fit();
-        tree_.blocks.shrink_to_fit();
         return std::move(tree_);
     }
     // [collapse_pack]

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "chapters/ch07_bounding_volume_hierarchies/bvh_nodes.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/cache_line_allocator.hpp"
 #include "common/geometry.hpp"
 
 #include <algorithm>
@@ -42,8 +43,9 @@ class CollapseChoice {
         std::array<std::uint8_t, N> opened;
         /// first[i - 1]: of i places that are all used, those of the first child.
         std::array<std::uint8_t, N> first;
-        std::uint32_t references = 0;
-        bool is_leaf = false;  ///< where it takes one place: a leaf, not a wide node
+        std::uint32_t references;
+        std::uint8_t places;  ///< that can be used: leaves below, at most N; more cost the same
+        bool is_leaf;         ///< where it takes one place: a leaf, not a wide node
     };
 
     CollapseChoice(const BvhNodes<D>& tree, const CollapseConfig& config)
@@ -92,24 +94,28 @@ class CollapseChoice {
         if (node.is_leaf()) {
             row.cost.fill(as_leaf);
             row.opened.fill(1);
+            row.places = 1;
             row.is_leaf = true;
             return;
         }
         const Row &a = rows_[node.first], &b = rows_[node.first + 1];
+        row.places = static_cast<std::uint8_t>(std::min(N, a.places + b.places));
         std::array<float, N> open;  // in exactly so many places, or fewer below
-        for (std::size_t i = 2; i <= N; ++i) {
+        for (std::size_t i = 2; i <= row.places; ++i) {
             open[i - 1] = infinity;
-            for (std::size_t k = 1; k < i; ++k) {
+            const std::size_t least = i > b.places ? i - b.places : 1;
+            for (std::size_t k = least; k < i && k <= a.places; ++k) {
                 const float sum = a.cost[k - 1] + b.cost[i - k - 1];
                 if (sum < open[i - 1]) open[i - 1] = sum, row.first[i - 1] = std::uint8_t(k);
             }
         }
-        const float as_node = static_cast<float>(config_.node_cost) * weight + open[N - 1];
+        const float as_node =
+            static_cast<float>(config_.node_cost) * weight + open[row.places - 1u];
         row.is_leaf = row.references <= config_.max_leaf && as_leaf <= as_node;
         row.cost[0] = row.is_leaf ? as_leaf : as_node;
         row.opened[0] = 1;
         for (std::size_t i = 2; i <= N; ++i) {
-            const bool opens = open[i - 1] < row.cost[i - 2];
+            const bool opens = i <= row.places && open[i - 1] < row.cost[i - 2];
             row.cost[i - 1] = opens ? open[i - 1] : row.cost[i - 2];
             row.opened[i - 1] = opens ? std::uint8_t(i) : row.opened[i - 2];
         }
@@ -120,8 +126,8 @@ class CollapseChoice {
         const std::size_t blocks = (references + config_.block_size - 1) / config_.block_size;
         return static_cast<float>(config_.block_cost) * weight * static_cast<float>(blocks);
     }
-    /// All places: a wide node is always opened.
-    std::size_t opened_below(std::uint32_t) const { return N; }
+    /// All places that can be used: a wide node is always opened.
+    std::size_t opened_below(std::uint32_t node) const { return rows_[node].places; }
 
     template <class Visit>
     void divide(std::uint32_t node, std::size_t places, const Visit& visit) const {
@@ -167,7 +173,7 @@ class CollapseChoice {
     const BvhNodes<D>& tree_;
     CollapseConfig config_;
     HitChance<D> chance_;
-    std::vector<Row> rows_;
+    std::vector<Row, CacheLineAllocator<Row>> rows_;  ///< the gap's is not written
 };
 
 }  // namespace space

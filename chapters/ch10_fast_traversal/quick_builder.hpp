@@ -128,7 +128,7 @@ class QuickBuild {
 
     Cut best_cut(const Part& part, std::span<Item> range) {
         if (range.size() <= 4) return best_of_all(range);
-        const std::size_t bins = std::min(most_bins, 4 + range.size() / 4);
+        const std::size_t bins = std::min(most_bins, 4 + range.size() / 16);
         const FourFloats extent = part.middles.high - part.middles.low;
         FourFloats scale{0.0f, 0.0f, 0.0f, 0.0f};
         for (int axis = 0; axis < 3; ++axis)
