@@ -20,6 +20,7 @@ namespace space {
 /// Event: a node has been tested. Its children that the ray meets, the nearest first.
 template <int N>
 struct WideVisit {
+    /// A child that the ray meets.
     struct Met {
         std::size_t place;  ///< in the node
         double enter;
