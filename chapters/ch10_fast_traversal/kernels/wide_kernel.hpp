@@ -308,7 +308,8 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
 // [wide_walk]
 
 // [wide_any]
-/// Any hit ends it, so the order matters less: the first child met is taken, the others wait.
+/// Any hit ends it, so the order matters less: the first child that is met is taken by a branch,
+/// the others wait.
 template <class Layout>
 SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
     constexpr int N = Layout::width;
@@ -320,27 +321,34 @@ SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
     uint32_t* const bottom =
         static_cast<uint32_t*>(__builtin_alloca(tree.stack_size * sizeof(uint32_t)));
     uint32_t* top = bottom;
-    *top++ = tree.root;
-    while (top != bottom) {
-        const uint32_t child = *--top;
-        if ((child & leaf_bit) == 0) {
+    uint32_t child = tree.root;
+    for (;;) {
+        bool is_over = false;
+        while ((child & leaf_bit) == 0) {
             const uint32_t* children;
             Floats<N> enter;
-            for (unsigned met = Layout::met(tree, child, node_ray, limit, enter, children);
-                 met != 0; met &= met - 1) {
-                *top++ = children[__builtin_ctz(met)];
+            const unsigned met = Layout::met(tree, child, node_ray, limit, enter, children);
+            if (met == 0) {
+                is_over = true;
+                break;
+            }
+            for (unsigned others = met & (met - 1); others != 0; others &= others - 1) {
+                *top++ = children[__builtin_ctz(others)];
                 waits(top[-1]);
             }
-            continue;
+            child = taken<N>(children, unsigned(__builtin_ctz(met)));
         }
-        for (typename Layout::Leaf leaf(tree, child); leaf.has_block(); leaf.take_next()) {
-            const LeafLanes lanes = filter_leaf<true>(leaf.block, ray, ray.limit);
-            if (lanes.must_hit != 0) return kernel_hit;
-            if (lanes.may_hit != 0 && is_any_hit(tree, ray, leaf.block, lanes.may_hit))
-                return kernel_hit;
+        if (!is_over) {
+            for (typename Layout::Leaf leaf(tree, child); leaf.has_block(); leaf.take_next()) {
+                const LeafLanes lanes = filter_leaf<true>(leaf.block, ray, ray.limit);
+                if (lanes.must_hit != 0) return kernel_hit;
+                if (lanes.may_hit != 0 && is_any_hit(tree, ray, leaf.block, lanes.may_hit))
+                    return kernel_hit;
+            }
         }
+        if (top == bottom) return kernel_miss;
+        child = *--top;
     }
-    return kernel_miss;
 }
 // [wide_any]
 
