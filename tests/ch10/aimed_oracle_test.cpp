@@ -1,5 +1,6 @@
 // Rays aimed at edges, at vertices and at faces of boxes: the nearest hit of each width and
 // instruction set is what CGAL's exact arithmetic says, triangle for triangle.
+#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/spatial_split_builder.hpp"
 #include "common/accelerator.hpp"
 #include "common/scene.hpp"
@@ -124,6 +125,7 @@ void check_scene(const std::string& scene, const std::vector<Triangle>& triangle
     const WideBvhConfig<SpatialSplitBuilder> cut{.binary = {.min_overlap = 0.0, .max_growth = 2.0}};
     check(WideBvh<4, SpatialSplitBuilder>::build(triangles, cut), rays);
     check(WideBvh<8, SpatialSplitBuilder>::build(triangles, cut), rays);
+    check(FastHighBvh<>::build(triangles), rays);
     const auto hits =
         std::ranges::count_if(rays, [](const auto& r) { return r.nearest.has_value(); });
     fmt::print("  {}: {} triangles, {} rays, {} hits, no wrong answer\n", scene, triangles.size(),

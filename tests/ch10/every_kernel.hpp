@@ -3,10 +3,10 @@
 /// each instruction set that this processor has.
 #pragma once
 
-#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch10_fast_traversal/compressed_bvh.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/instruction_set.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 #include "common/geometry.hpp"
 #include "tests/catch.hpp"
 
@@ -16,7 +16,7 @@
 namespace space {
 
 /// Calls check(bvh, name) for each; a failed test says which it was.
-template <int N, class Builder = BinnedBuilder, class Check>
+template <int N, class Builder = QuickBuilder, class Check>
 void for_each_kernel_of(std::span<const Triangle> triangles, const Check& check,
                         const WideBvhConfig<Builder>& config = {}) {
     for (const InstructionSet set : usable_instruction_sets()) {
@@ -27,7 +27,7 @@ void for_each_kernel_of(std::span<const Triangle> triangles, const Check& check,
         check(WideBvh<N, Builder>::build(triangles, with), name);
     }
 }
-template <class Builder = BinnedBuilder, class Check>
+template <class Builder = QuickBuilder, class Check>
 void for_each_compressed(std::span<const Triangle> triangles, const Check& check,
                          const WideBvhConfig<Builder>& config = {}) {
     for (const InstructionSet set : usable_instruction_sets()) {
@@ -38,7 +38,7 @@ void for_each_compressed(std::span<const Triangle> triangles, const Check& check
         check(BasicCompressedBvh<Builder>::build(triangles, with), name);
     }
 }
-template <class Builder = BinnedBuilder, class Check>
+template <class Builder = QuickBuilder, class Check>
 void for_each_kernel(std::span<const Triangle> triangles, const Check& check,
                      const WideBvhConfig<Builder>& config = {}) {
     for_each_kernel_of<4, Builder>(triangles, check, config);

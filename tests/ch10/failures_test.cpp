@@ -4,6 +4,7 @@
 #include "chapters/ch02_intersection_tests/boxes.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch10_fast_traversal/compressed_node.hpp"
 #include "chapters/ch10_fast_traversal/kernels/kernel_table.hpp"
 #include "common/accelerator.hpp"
@@ -32,7 +33,7 @@ namespace space {
 namespace {
 
 /// Each kernel's answers to rays, beside those of the naive loop over the exact test.
-template <class Builder = BinnedBuilder>
+template <class Builder = QuickBuilder>
 std::size_t check_kernels(const std::vector<Triangle>& triangles, const std::vector<Ray>& rays,
                           const WideBvhConfig<Builder>& config = {}) {
     const auto naive = Naive<FilteredExact>::build(triangles);

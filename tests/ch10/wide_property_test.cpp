@@ -2,6 +2,7 @@
 // shrink.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/spatial_split_builder.hpp"
 #include "common/accelerator.hpp"
 #include "tests/catch.hpp"
@@ -99,10 +100,13 @@ void check_property(const SomePoint& point) {
             RC_ASSERT(any_hit(bvh, rays[i]) == expected[i].has_value());
         }
     };
-    for_each_kernel<BinnedBuilder>(triangles, check, {.collapse = collapse});
-    for_each_kernel<SpatialSplitBuilder>(
-        triangles, check,
-        {.binary = {.min_overlap = 0.0, .max_growth = 2.0}, .collapse = collapse});
+    for_each_kernel<QuickBuilder>(triangles, check,
+                                  {.binary = {.max_leaf_size = leaf}, .collapse = collapse});
+    check(WideBvh<8, BinnedBuilder>::build(triangles, {.collapse = collapse}), "binned");
+    check(WideBvh<4, SpatialSplitBuilder>::build(
+              triangles, {.binary = {.min_overlap = 0.0, .max_growth = 2.0}, .collapse = collapse}),
+          "spatial splits");
+    check(FastHighBvh<>::build(triangles, {.collapse = collapse}), "high quality");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Many threads ask one tree, and all get the naive loop's answers; no ray allocates memory.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "common/accelerator.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch07/box_rays.hpp"
