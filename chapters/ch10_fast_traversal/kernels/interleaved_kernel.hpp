@@ -22,17 +22,6 @@ struct Walk {
     bool is_over;
 };
 
-/// Asks for the lines of a node, or of a leaf's first block.
-SPACE_INLINE void ask_for(const KernelTree& tree, uint32_t child) {
-    const bool is_leaf = (child & leaf_bit) != 0;
-    const char* const place = is_leaf ? tree.blocks + (child & 0x0fffffff) * block_bytes
-                                      : tree.nodes + size_t(child) * 256;
-    __builtin_prefetch(place);
-    __builtin_prefetch(place + 64);
-    __builtin_prefetch(place + 128);
-    if (!is_leaf) __builtin_prefetch(place + 192);
-}
-
 /// The nearest of what waits, if it begins before the limit.
 SPACE_INLINE void take_waiting(Walk& walk) {
     const uint32_t limit_bits = __builtin_bit_cast(uint32_t, box_limit(walk.ends));
@@ -81,7 +70,7 @@ SPACE_INLINE void step(const KernelTree& tree, Walk& walk) {
         else
             take_waiting(walk);
     }
-    if (!walk.is_over) ask_for(tree, walk.child);
+    if (!walk.is_over) FetchWaiting<WideLayout<8>>{tree}(walk.child);
 }
 
 /// The next ray that kernels take, if there is one left.

@@ -443,9 +443,11 @@ SPACE_INLINE bool test_leaf(const KernelTree& tree, uint32_t child, PacketRays& 
 
 /// The children of a node that rays meet, onto the stack, the one that is entered first on top.
 template <bool has_one_origin>
-SPACE_INLINE WaitingChild* push_children(const char* node, const PacketRays& rays,
-                                         const PacketSpan& span, uint64_t some, float most,
-                                         WaitingChild* top) {
+SPACE_INLINE WaitingChild* push_children(const KernelTree& tree, uint32_t index,
+                                         const PacketRays& rays, const PacketSpan& span,
+                                         uint64_t some, float most, WaitingChild* top) {
+    const FetchWaiting<WideLayout<8>> fetch{tree};
+    const char* const node = tree.nodes + size_t(index) * 256;
     Float8 enter;
     unsigned met = children_met_by_any(node, span, all<8>(most), enter);
     if (met == 0) return top;
@@ -457,6 +459,7 @@ SPACE_INLINE WaitingChild* push_children(const char* node, const PacketRays& ray
         const unsigned child = unsigned(__builtin_ctz(met));
         const uint64_t meeting = rays_that_meet<has_one_origin>(node, child, rays, span, some);
         if (meeting == 0) continue;
+        fetch(children[child]);
         WaitingChild* place = top++;
         for (; place != bottom && place[-1].enter < enters[child]; --place) *place = place[-1];
         *place = {meeting, enters[child], children[child]};
@@ -482,8 +485,7 @@ template <bool has_one_origin>
         if (some == 0) continue;
         if ((waiting.child & leaf_bit) == 0) {
             ++counts.nodes;
-            top = push_children<has_one_origin>(tree.nodes + size_t(waiting.child) * 256, rays,
-                                                span, some, most, top);
+            top = push_children<has_one_origin>(tree, waiting.child, rays, span, some, most, top);
         } else if (test_leaf<has_one_origin>(tree, waiting.child, rays, some, exact, counts)) {
             most = most_limit(rays);
         }
