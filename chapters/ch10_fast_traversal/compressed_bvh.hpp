@@ -3,11 +3,11 @@
 #pragma once
 
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
-#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch10_fast_traversal/collapse.hpp"
 #include "chapters/ch10_fast_traversal/compressed_tree.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/kernels/many_table.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 #include "chapters/ch10_fast_traversal/wide_walk.hpp"
 #include "common/accelerator.hpp"
 #include "common/geometry.hpp"
@@ -115,6 +115,6 @@ class BasicCompressedBvh {
 };
 
 template <TriangleTest Test = FilteredExact>
-using CompressedBvh = BasicCompressedBvh<BinnedBuilder, Test>;
+using CompressedBvh = BasicCompressedBvh<QuickBuilder, Test>;
 
 }  // namespace space

@@ -111,6 +111,7 @@ class TreeCompressor {
                 small.children[i] = moved(small.children[i]);
             tree_.nodes.push_back(small);
         }
+        tree_.corners.push_back({});  // kernels read a corner with the float behind it
         tree_.corners.shrink_to_fit();
         return std::move(tree_);
     }

@@ -59,7 +59,7 @@ std::uint64_t climb_on_one_scene(const Options& options) {
         others += other;
     };
     show("binary (chapter 7)", binary);
-    show("four children", WideBvh<4, BinnedBuilder>::build(mesh));
+    show("four children", WideBvh<4, QuickBuilder>::build(mesh));
     show("eight children", FastBvh<>::build(mesh));
     show("eight, compressed", CompressedBvh<>::build(mesh));
     print_heading(fmt::format("{}: {} triangles", options.scene, with_commas(mesh.size())));

@@ -44,6 +44,10 @@ SPACE_INLINE unsigned met_compressed(const char* node, const NodeRay<8>& ray, Fl
 }
 // [compressed_slab]
 
+/// In a place without a triangle: no number, so the filter leaves it out.
+constexpr float no_corner[4] = {__builtin_nanf(""), __builtin_nanf(""), __builtin_nanf(""),
+                                __builtin_nanf("")};
+
 /// A CompressedTree.
 struct CompressedLayout {
     static constexpr int width = 8;
@@ -81,21 +85,31 @@ struct CompressedLayout {
 
       private:
         SPACE_INLINE void gather() {
+            const float* at[3][4];
             for (unsigned lane = 0; lane < 4; ++lane) {
-                if (triangles == nullptr) {  // no number: the filter leaves it out
-                    rows[0][lane] = __builtin_nanf("");
+                if (triangles == nullptr) {
+                    for (auto& corner : at) corner[lane] = no_corner;
                     continue;
                 }
                 const uint32_t* const words = reinterpret_cast<const uint32_t*>(triangles);
-                for (unsigned corner = 0; corner < 3; ++corner) {
-                    const float* const p = corners + 3 * size_t(words[corner]);
-                    rows[3 * corner][lane] = p[0];
-                    rows[3 * corner + 1][lane] = p[1];
-                    rows[3 * corner + 2][lane] = p[2];
-                }
+                for (unsigned corner = 0; corner < 3; ++corner)
+                    at[corner][lane] = corners + 3 * size_t(words[corner]);
                 reinterpret_cast<uint32_t*>(rows[9])[lane] = words[3] & ~leaf_bit;
                 triangles = (words[3] & leaf_bit) != 0 ? nullptr : triangles + 16;
             }
+            for (unsigned corner = 0; corner < 3; ++corner) turn(at[corner], rows + 3 * corner);
+        }
+        /// Four corners, of which each is read with the float behind it: their x, their y, their z.
+        SPACE_INLINE static void turn(const float* const (&at)[4], float (*to)[4]) {
+            const Float4 a = load_any(at[0]), b = load_any(at[1]), c = load_any(at[2]),
+                         d = load_any(at[3]);
+            const Float4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                         cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+            store(to[0], __builtin_shufflevector(ab, cd, 0, 1, 4, 5));
+            store(to[1], __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
+            store(to[2],
+                  __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 3, 7),
+                                          __builtin_shufflevector(c, d, 2, 6, 3, 7), 0, 1, 4, 5));
         }
     };
     // [gathered_block]

@@ -8,6 +8,7 @@
 #include "chapters/ch10_fast_traversal/measured/aimed_rays.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 #include "common/parallel.hpp"
 #include "common/program/progress.hpp"
 #include "common/scene.hpp"
@@ -75,9 +76,9 @@ void measure_kernels(const AimedScene& scene, FastMeasurements& measured, bool o
         // Tables of counts name what every machine has.
         if (on_any_machine && set != InstructionSet::scalar && set != InstructionSet::portable)
             continue;
-        WideBvhConfig<BinnedBuilder> config;
+        WideBvhConfig<QuickBuilder> config;
         config.instructions = set;
-        const auto bvh = WideBvh<N, BinnedBuilder>::build(scene.triangles, config);
+        const auto bvh = WideBvh<N, QuickBuilder>::build(scene.triangles, config);
         KernelPoint point{.scene = scene.name,
                           .instruction_set = std::string(name_of(set)),
                           .width = N,

@@ -5,10 +5,12 @@
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 
 #include <fmt/format.h>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,13 +64,13 @@ void compare(const TracedScene& scene, std::vector<Chosen> all, int rounds,
 
 void measure_choices(const TracedScene& scene, const FastEffort& effort,
                      FastMeasurements& measured) {
-    const BvhNodes<3> binary = BinnedBuilder::build<3>(scene.triangles);
+    const BvhNodes<3> binary = QuickBuilder::build<3>(scene.triangles);
     const auto over = [&]<int N>(std::string name, std::integral_constant<int, N>,
                                  const CollapseConfig& collapse) {
-        WideBvhConfig<BinnedBuilder> config;
+        WideBvhConfig<QuickBuilder> config;
         config.collapse = collapse;
-        return chosen<N, BinnedBuilder>(
-            std::move(name), WideBvh<N, BinnedBuilder>::over(binary, scene.triangles, config));
+        return chosen<N, QuickBuilder>(
+            std::move(name), WideBvh<N, QuickBuilder>::over(binary, scene.triangles, config));
     };
     constexpr std::integral_constant<int, 4> four;
     constexpr std::integral_constant<int, 8> eight;
@@ -79,13 +81,15 @@ void measure_choices(const TracedScene& scene, const FastEffort& effort,
         leaves.push_back(over(fmt::format("at most {}", size), eight, {.max_leaf = size}));
     compare(scene, std::move(leaves), effort.rounds, measured.leaf_sizes);
     if (scene.triangles.size() > effort.most_high) return;
+    const auto built = [&]<class Builder>(std::string name, std::type_identity<Builder>) {
+        return chosen<8, Builder>(std::move(name), WideBvh<8, Builder>::build(scene.triangles));
+    };
     compare(scene,
-            {over("binned", eight, {}),
-             chosen<8, SweepBuilder>("sweep", WideBvh<8, SweepBuilder>::build(scene.triangles)),
-             chosen<8, SpatialSplitBuilder>(
-                 "spatial splits", WideBvh<8, SpatialSplitBuilder>::build(scene.triangles)),
-             chosen<8, OptimisedBuilder>("optimised",
-                                         WideBvh<8, OptimisedBuilder>::build(scene.triangles))},
+            {over("quick", eight, {}), built("binned", std::type_identity<BinnedBuilder>{}),
+             built("sweep", std::type_identity<SweepBuilder>{}),
+             built("spatial splits", std::type_identity<SpatialSplitBuilder>{}),
+             built("optimised", std::type_identity<OptimisedBuilder>{}),
+             built("high quality", std::type_identity<HighQualityBuilder>{})},
             effort.rounds, measured.high);
 }
 

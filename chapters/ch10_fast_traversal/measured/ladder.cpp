@@ -1,7 +1,6 @@
 #include "chapters/ch02_intersection_tests/moller_trumbore_float.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/bvh.hpp"
-#include "chapters/ch07_bounding_volume_hierarchies/spatial_split_builder.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/interleaved.hpp"
 #include "chapters/ch10_fast_traversal/measured/aimed_rays.hpp"
@@ -73,8 +72,8 @@ std::vector<Tracer> rungs(const TracedScene& scene, const FastEffort& effort) {
                 all.push_back(our_tracer("eight, " + std::string(name_of(set)),
                                          wide_bvh<8>(binary, scene, set)));
     }
-    const FastBvh<> best = FastBvh<>::over(binary, scene.triangles);
-    if (effort.rounds == 0) all.push_back(our_tracer("eight, kernel", best));
+    const FastBvh<> best = FastBvh<>::build(scene.triangles);
+    all.push_back(our_tracer("a tree for blocks of four", best));
     all.push_back(interleaved_tracer("eight rays interleaved", best));
     if (scene.triangles.size() <= effort.most_high)
         all.push_back(

@@ -1,4 +1,3 @@
-#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/interleaved.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"

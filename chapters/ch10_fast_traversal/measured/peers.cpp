@@ -1,9 +1,8 @@
-#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
-#include "chapters/ch07_bounding_volume_hierarchies/spatial_split_builder.hpp"
 #include "chapters/ch10_fast_traversal/compressed_bvh.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -13,8 +12,6 @@
 
 namespace space::ch10 {
 namespace {
-
-using HighBvh = WideBvh<8, SpatialSplitBuilder>;
 
 BuildPoint build_point(const TracedScene& scene, std::string_view structure,
                        const TreeShape& shape) {
@@ -44,11 +41,11 @@ void time_builds(const TracedScene& scene, const FastEffort& effort,
             const std::string& name = points[i].structure;
             const bool is_high = name == "high";
             if (is_high && round > 0) continue;
-            times[i].push_back(name == embree_default ? embree_build_ms(scene.triangles)
-                               : is_high ? ours([&] { return HighBvh::build(scene.triangles); })
-                               : name == "fast"
-                                   ? ours([&] { return FastBvh<>::build(scene.triangles); })
-                                   : ours([&] { return CompressedBvh<>::build(scene.triangles); }));
+            times[i].push_back(
+                name == embree_default ? embree_build_ms(scene.triangles)
+                : is_high              ? ours([&] { return FastHighBvh<>::build(scene.triangles); })
+                : name == "fast"       ? ours([&] { return FastBvh<>::build(scene.triangles); })
+                                 : ours([&] { return CompressedBvh<>::build(scene.triangles); }));
         }
     for (std::size_t i = 0; i < points.size(); ++i) points[i].ms = median(times[i]);
 }
@@ -78,12 +75,12 @@ void measure_peers(const TracedScene& scene, const Options& options, FastMeasure
     const FastEffort effort = fast_effort(options);
     std::vector<Tracer> all;
     {
-        const BvhNodes<3> binary = BinnedBuilder::build<3>(scene.triangles);
+        const BvhNodes<3> binary = QuickBuilder::build<3>(scene.triangles);
         all.push_back(our_tracer("fast", FastBvh<>::over(binary, scene.triangles)));
         all.push_back(our_tracer("compressed", CompressedBvh<>::over(binary, scene.triangles)));
     }
     const bool has_high = scene.triangles.size() <= effort.most_high;
-    if (has_high) all.push_back(our_tracer("high", HighBvh::build(scene.triangles)));
+    if (has_high) all.push_back(our_tracer("high", FastHighBvh<>::build(scene.triangles)));
     const std::size_t ours = all.size();
     if (effort.rounds > 0)
         for (Tracer& tracer : embree_tracers(scene.triangles)) all.push_back(std::move(tracer));

@@ -4,6 +4,7 @@
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 #include "common/program/progress.hpp"
 
 #include <string>
@@ -21,7 +22,7 @@ void measure_sizes(const Options& options, FastMeasurements& measured) {
         if (!scene) continue;
         std::vector<Tracer> all;
         {
-            const BvhNodes<3> binary = BinnedBuilder::build<3>(scene->triangles);
+            const BvhNodes<3> binary = QuickBuilder::build<3>(scene->triangles);
             all.push_back(our_tracer("wide", FastBvh<>::over(binary, scene->triangles)));
             all.push_back(
                 our_tracer("compressed", CompressedBvh<>::over(binary, scene->triangles)));

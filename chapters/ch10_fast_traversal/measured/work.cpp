@@ -6,6 +6,7 @@
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
+#include "chapters/ch10_fast_traversal/quick_builder.hpp"
 
 #include <cmath>
 #include <string>
@@ -139,8 +140,9 @@ void add_times(WorkPoint& point, const MachineCosts& costs, double ns) {
 
 void measure_work(const TracedScene& scene, const FastEffort& effort, FastMeasurements& measured) {
     const BvhNodes<3> binary = BinnedBuilder::build<3>(scene.triangles);
-    const FastBvh<> wide = FastBvh<>::over(binary, scene.triangles);
-    const CompressedBvh<> compressed = CompressedBvh<>::over(binary, scene.triangles);
+    const BvhNodes<3> quick = QuickBuilder::build<3>(scene.triangles);
+    const FastBvh<> wide = FastBvh<>::over(quick, scene.triangles);
+    const CompressedBvh<> compressed = CompressedBvh<>::over(quick, scene.triangles);
     const MachineCosts costs = machine_costs(measured);
     const std::vector<Tracer> tracers{our_tracer("wide", wide),
                                       our_tracer("compressed", compressed)};
