@@ -48,13 +48,13 @@ template <class Value>
 std::vector<Series> rungs_by_scene(const std::vector<RungPoint>& ladder, bool with_embree,
                                    const Value& value) {
     std::vector<Series> lines;
+    const std::vector<std::string> rungs = different(ladder, &RungPoint::rung);
     for (const std::string& scene : different(ladder, &RungPoint::scene)) {
         Series line{.name = scene, .x = {}, .y = {}};
-        double rung = 0.0;
         for (const RungPoint& p : ladder) {
             if (p.scene != scene || p.kind != diffuse_kind) continue;
             if (is_embree(p.rung) && !with_embree) continue;
-            line.x.push_back(++rung);
+            line.x.push_back(1.0 + double(std::ranges::find(rungs, p.rung) - rungs.begin()));
             line.y.push_back(value(p));
         }
         lines.push_back(std::move(line));
