@@ -41,6 +41,8 @@ template <int N, class Builder, TriangleTest Test = FilteredExact>
 class WideBvh {
   public:
     using Config = WideBvhConfig<Builder>;
+    static constexpr int width = N;
+    static constexpr bool has_exact_test = std::same_as<Test, FilteredExact>;
 
     // [fast_bvh_build]
     /// @throws LimitError where the tree is deeper than the stack of a ray's walk
@@ -81,7 +83,7 @@ class WideBvh {
     // [fast_bvh_query]
     template <class Counts>
     std::optional<Hit> closest_hit(const Ray& ray, Counts& counts) const {
-        if constexpr (std::same_as<Test, FilteredExact> && std::same_as<Counts, NoCounts>) {
+        if constexpr (has_exact_test && std::same_as<Counts, NoCounts>) {
             if (table_ != nullptr && !tree_.empty()) {
                 KernelHit best = nothing_yet;
                 const KernelAnswer answer = table_->closest(kernel_tree(), floats_of(ray), best);
@@ -95,7 +97,7 @@ class WideBvh {
 
     template <class Counts>
     bool any_hit(const Ray& ray, Counts& counts) const {
-        if constexpr (std::same_as<Test, FilteredExact> && std::same_as<Counts, NoCounts>) {
+        if constexpr (has_exact_test && std::same_as<Counts, NoCounts>) {
             if (table_ != nullptr && !tree_.empty()) {
                 const KernelAnswer answer = table_->any(kernel_tree(), floats_of(ray));
                 if (answer != kernel_refuses) return answer == kernel_hit;

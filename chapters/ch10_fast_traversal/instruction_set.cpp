@@ -15,33 +15,41 @@
 namespace space {
 namespace {
 
-#if defined(SPACE_HAS_CPUID) && defined(__x86_64__)
-/// Of the processor on which this thread runs: kernels of different kinds in one machine that have
-/// different instructions are not known.
-void add_x86(std::vector<InstructionSet>& sets) {
-    const std::vector<SimdSet> simd = simd_sets(record_leaves());
+/// Those that kernel_avx2.cpp is compiled for beside AVX2 and FMA: the compiler takes their
+/// instructions wherever they are shorter. A hypervisor may hide any of them.
+bool has_bit_instructions(const CpuidLeaves& cpu) {
+    const CpuidRegisters one = cpu.at(1), seven = cpu.has(7) ? cpu.at(7) : CpuidRegisters{},
+                         extended = cpu.has(0x80000001u) ? cpu.at(0x80000001u) : CpuidRegisters{};
+    const bool popcnt = bits_of(one.ecx, 23, 23), bmi1 = bits_of(seven.ebx, 3, 3),
+               bmi2 = bits_of(seven.ebx, 8, 8), lzcnt = bits_of(extended.ecx, 5, 5);
+    return popcnt && bmi1 && bmi2 && lzcnt;
+}
+
+}  // namespace
+
+std::vector<InstructionSet> instruction_sets_of(const CpuidLeaves& cpu) {
+    std::vector<InstructionSet> sets{InstructionSet::scalar, InstructionSet::portable,
+                                     InstructionSet::sse2};  // every processor of 64 bits has it
+    const std::vector<SimdSet> simd = simd_sets(cpu);
     const auto has = [&](std::string_view name) {
         return std::ranges::any_of(simd,
                                    [&](const SimdSet& s) { return s.name == name && s.usable; });
     };
-    sets.push_back(InstructionSet::sse2);  // every processor of 64 bits has it
-    if (!has("AVX2") || !has("FMA")) return;
+    if (!has("AVX2") || !has("FMA") || !has_bit_instructions(cpu)) return sets;
     sets.push_back(InstructionSet::avx2);
     if (has("AVX-512F") && has("AVX-512DQ") && has("AVX-512BW") && has("AVX-512VL"))
         sets.push_back(InstructionSet::avx512);
+    return sets;
 }
-#else
-void add_x86(std::vector<InstructionSet>&) {}
-#endif
-
-}  // namespace
 
 const std::vector<InstructionSet>& usable_instruction_sets() {
-    static const std::vector<InstructionSet> sets = [] {
-        std::vector<InstructionSet> found{InstructionSet::scalar, InstructionSet::portable};
-        add_x86(found);
-        return found;
-    }();
+    // Of the processor on which this thread runs: kernels of different kinds in one machine that
+    // have different instructions are not known.
+#if defined(SPACE_HAS_CPUID) && defined(__x86_64__)
+    static const std::vector<InstructionSet> sets = instruction_sets_of(record_leaves());
+#else
+    static const std::vector<InstructionSet> sets{InstructionSet::scalar, InstructionSet::portable};
+#endif
     return sets;
 }
 

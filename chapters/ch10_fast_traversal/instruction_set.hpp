@@ -25,6 +25,11 @@ inline std::string_view name_of(InstructionSet set) {
     return instruction_set_names[static_cast<std::size_t>(set)];
 }
 
+struct CpuidLeaves;
+
+/// Those of an x86 processor of 64 bits that has answered so, from the plainest to the best.
+std::vector<InstructionSet> instruction_sets_of(const CpuidLeaves& cpu);
+
 /// Those that this processor, its system and this program have, from the plainest to the best.
 const std::vector<InstructionSet>& usable_instruction_sets();
 

@@ -16,7 +16,7 @@ namespace space {
 // [interleaved]
 /// Rays of any kind and order, `together` of them under way (at most 32). The answers are those of
 /// single rays, bit for bit.
-template <class Tree, class Answer>
+template <TracedTogether Tree, class Answer>
 void trace_interleaved(const Tree& tree, std::span<const Ray> rays, unsigned together,
                        ManyQuery query, const Answer& answer) {
     static_assert(sizeof(Ray) == 8 * sizeof(float));

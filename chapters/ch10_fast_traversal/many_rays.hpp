@@ -14,6 +14,10 @@
 
 namespace space {
 
+/// Trees that the kernels for many rays walk: of nodes with eight children, by the exact test.
+template <class Tree>
+concept TracedTogether = Tree::width == 8 && Tree::has_exact_test;
+
 /// The two questions of the concept Accelerator, asked of many rays.
 enum class ManyQuery { closest, any };
 

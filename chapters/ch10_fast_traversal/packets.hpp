@@ -27,7 +27,7 @@ inline std::vector<std::uint32_t> tiled_order(int width, int height, int side) {
 }
 
 /// Rays in packets of consecutive ones, of which `answer(i, hit)` is told each one's hit.
-template <class Tree, class Answer>
+template <TracedTogether Tree, class Answer>
 class PacketTracer {
   public:
     PacketTracer(const Tree& tree, std::span<const Ray> rays, ManyQuery query, const Answer& answer)
@@ -84,7 +84,7 @@ class PacketTracer {
 // [packets]
 /// Traces rays that go the same way together; neighbours should follow each other. The answers are
 /// those of single rays, bit for bit.
-template <class Tree, class Answer>
+template <TracedTogether Tree, class Answer>
 PacketCounts trace_in_packets(const Tree& tree, std::span<const Ray> rays, std::size_t size,
                               ManyQuery query, const Answer& answer) {
     size = std::clamp<std::size_t>(size, 1, most_packet_rays);

@@ -60,8 +60,9 @@ template const KernelTable* kernel_table<8>(InstructionSet);
 ///
 /// A ray that is parallel to the planes (d = 0) takes 2^90 for 1 / d and moves the planes outwards
 /// by a shift, which is at least four roundings of o, and so that 2^90 times it is more than any t
-/// at which the ray is still near the tree. Inside the slab near planes then come before 0 and far
-/// ones after all that can be hit.
+/// at which the ray is still near the tree; and never below 2^-126, since it must not underflow:
+/// where the tree is small beside the speed, that is a t of 2^-36, which is more than enough.
+/// Inside the slab near planes then come before 0 and far ones after all that can be hit.
 bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
     constexpr float u = 0x1p-24f, slowest = 0x1p-90f, fastest = 0x1p30f;
     if (!(ray.tmin >= 0.0f && ray.tmin <= ray.tmax && largest <= largest_kernel_float))
@@ -88,7 +89,8 @@ bool prepare_kernel_ray(const Ray& ray, float largest, KernelRay& prepared) {
         prepared.near_row[axis] = std::uint32_t(axis + (backwards ? 3 : 0));
         prepared.far_row[axis] = std::uint32_t(axis + (backwards ? 0 : 3));
         if (d == 0.0f) {  // on the fastest axis all lies before t = 2 reach / speed
-            const float shift = std::max(4.0f * u * std::abs(o), 8.0f * reach / speed * slowest);
+            const float shift =
+                std::max({4.0f * u * std::abs(o), 8.0f * reach / speed * slowest, 0x1p-126f});
             prepared.near_origin[axis] = o + shift;
             prepared.far_origin[axis] = o - shift;
             prepared.near_scale[axis] = prepared.far_scale[axis] = 1.0f / slowest;
