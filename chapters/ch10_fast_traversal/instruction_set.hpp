@@ -3,6 +3,8 @@
 /// another.
 #pragma once
 
+#include "chapters/ch08_parallel_builds/cpuid.hpp"
+
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -24,8 +26,6 @@ inline constexpr std::array<std::string_view, 5> instruction_set_names{"scalar",
 inline std::string_view name_of(InstructionSet set) {
     return instruction_set_names[static_cast<std::size_t>(set)];
 }
-
-struct CpuidLeaves;
 
 /// Those of an x86 processor of 64 bits that has answered so, from the plainest to the best.
 std::vector<InstructionSet> instruction_sets_of(const CpuidLeaves& cpu);
