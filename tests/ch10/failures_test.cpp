@@ -149,6 +149,44 @@ TEST_CASE("slabs: plain and fused planes lose boxes, lengthened fused ones too; 
     }
 }
 
+TEST_CASE(
+    "a ray that touches a box in its corner alone hits the triangle that has a vertex there") {
+    // On a grid, so that directions are exact: each ray meets its vertex at t = 1, and must not
+    // lose it to a near plane that is met a rounding later than a far one.
+    Pcg32 random(21);
+    const auto coordinate = [&](std::uint32_t most) {
+        return 0x1p-16f * float(1 + random.below(most));
+    };
+    const auto point = [&](std::uint32_t most) {
+        Point3 p;
+        for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(most);
+        return p;
+    };
+    std::vector<Triangle> triangles(500);
+    for (Triangle& t : triangles) {
+        t.a = point(50'000);
+        t.b = t.a + point(8'000);
+        t.c = t.a + point(8'000);
+    }
+    std::vector<Ray> rays;
+    for (int i = 0; i < sized(60'000, 6'000); ++i) {
+        const Triangle& t = triangles[random.below(500)];
+        const Point3 origin = 2.0f * point(60'000) - 0.5f;
+        const Ray ray{.origin = origin, .direction = t.a - origin, .tmin = 1.0f, .tmax = 1.0f};
+        if (FilteredExact::intersect(ray, t)) rays.push_back(ray);  // not seen edge-on
+    }
+    CHECK(rays.size() > 4'000);
+    for_each_kernel(
+        triangles,
+        [&](const auto& bvh, const std::string&) {
+            std::size_t lost = 0;
+            for (const Ray& ray : rays)
+                lost += !closest_hit(bvh, ray).has_value() || !any_hit(bvh, ray);
+            REQUIRE(lost == 0);
+        },
+        WideBvhConfig<QuickBuilder>{.binary = {.max_leaf_size = 1}, .collapse = {.max_leaf = 1}});
+}
+
 namespace {
 
 /// A node with eight boxes far from the origin, and rays at their corners.
@@ -207,6 +245,22 @@ TEST_CASE(
         CHECK(lost_nearest > rays / 100);
         CHECK(lost == 0);
     }
+}
+
+TEST_CASE("eight bits: quotients that doubles round lose no box either") {
+    for (const float small : {0x1p-80f, 0x1p-30f, 1e-45f})
+        for (const float scale : {1.0f, 0x1p20f, 0x1p60f}) {
+            WideNode<8> node;
+            for (std::size_t i = 0; i < 8; ++i) node.put(i, Aabb{}, {});
+            const float at = small * scale;
+            node.put(0, {Point3(-0x1p60f * scale), Point3(0x1p60f * scale)}, {});
+            node.put(1, {Point3(-at), Point3(-at)}, {});
+            node.put(2, {Point3(at), Point3(at)}, {});
+            const CompressedNode packed = compressed(node);
+            CAPTURE(small, scale);
+            REQUIRE(packed.count == 3);
+            for (std::size_t i = 0; i < 3; ++i) REQUIRE(packed.box(i).contains(node.box(i)));
+        }
 }
 
 TEST_CASE(

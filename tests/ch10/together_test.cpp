@@ -2,6 +2,7 @@
 // the naive loop's, whatever its neighbours.
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch10_fast_traversal/interleaved.hpp"
 #include "chapters/ch10_fast_traversal/packets.hpp"
 #include "chapters/ch10_fast_traversal/sorted_stream.hpp"
@@ -128,6 +129,23 @@ TEST_CASE("rays aimed at boxes, edges and vertices, and rays for no kernel, in n
 TEST_CASE("rays from one point to vertices all around") {
     const auto triangles = scenes::soup(400, 0.2f, 3);
     check_scene(triangles, from_one_point(triangles, sized(1'500, 150)));
+}
+
+TEST_CASE("rays from one point to edges and vertices that are seen almost from the side") {
+    Pcg32 random(8);
+    std::vector<Triangle> triangles(300);
+    std::vector<Ray> rays;
+    const Point3 eye{3, 2.5f, 1e-5f};
+    for (Triangle& t : triangles) {
+        for (Point3* corner : {&t.a, &t.b, &t.c}) {
+            const Point3 p = random_vector(random);
+            *corner = {p.x, p.y, 1e-6f * p.z};
+        }
+        const float share = random.uniform();
+        for (const Point3& target : {t.a, t.b + share * (t.c - t.b), t.a + share * (t.b - t.a)})
+            rays.push_back({.origin = eye, .direction = target - eye});
+    }
+    check_scene(triangles, rays);
 }
 
 TEST_CASE("no triangles, one, and a thousand in one place") {
