@@ -25,7 +25,7 @@ struct FastEffort {
     std::vector<FastScene> modes;
     std::vector<std::string> sizes;  ///< one scene as it grows
     std::vector<std::string> aimed;  ///< small enough for the naive loop
-    std::size_t aimed_rays = 200'000;
+    std::size_t aimed_rays = 100'000;
     std::size_t most_high = 400'000;  ///< triangles over which better trees are built
 };
 

@@ -19,6 +19,10 @@ bool is_among(const std::vector<FastScene>& scenes, const std::string& name) {
 FastMeasurements measure_fast(const Options& options) {
     const FastEffort effort = fast_effort(options);
     FastMeasurements measured;
+    if (options.counts && options.quick) {  // what takes seconds
+        measure_aimed(options, measured);
+        return measured;
+    }
     measure_probes(effort, measured);
     std::vector<FastScene> all = effort.ladder;
     for (const FastScene& scene : effort.scenes)

@@ -342,39 +342,34 @@ Table goals_table(const std::vector<Goal>& goals) {
 struct NamedTable {
     std::string name, heading;
     Table table;
-    bool is_count;
 };
 
 std::vector<NamedTable> all_tables(const FastMeasurements& m, bool timed) {
     std::vector<NamedTable> all;
-    const auto count = [&](std::string name, std::string heading, Table table) {
-        all.push_back({std::move(name), std::move(heading), std::move(table), true});
+    const auto add = [&](std::string name, std::string heading, Table table) {
+        all.push_back({std::move(name), std::move(heading), std::move(table)});
     };
     const auto time = [&](std::string name, std::string heading, Table table) {
-        if (timed) all.push_back({std::move(name), std::move(heading), std::move(table), false});
-    };
-    const auto both = [&](std::string name, std::string heading, Table table) {
-        all.push_back({std::move(name), std::move(heading), std::move(table), !timed});
+        if (timed) add(std::move(name), std::move(heading), std::move(table));
     };
     time("memory", "What a load takes", memory_table(m.memory));
     time("pages", "What pages cost", pages_table(m.memory));
     time("slabs", "A box by itself", slabs_table(m.slabs));
     time("costs", "A node of eight boxes, a block of four triangles", costs_table(m.steps));
-    count("work", "What a ray does, and what a model of caches says of it", work_table(m.work));
+    add("work", "What a ray does, and what a model of caches says of it", work_table(m.work));
     time("bounds", "What a ray must take, and what it takes", bounds_table(m.work));
-    both("ladder", "The ladder", ladder_table(m.ladder, timed));
+    add("ladder", "The ladder", ladder_table(m.ladder, timed));
     time("peers", "Beside Embree, one thread, one ray at a time", peers_table(m.peers));
-    count("answers", "The same rays: answers that are not the binary tree's",
-          answers_table(m.peers));
-    both("builds", "Builds and memory", builds_table(m.builds, timed));
-    both("sizes", "One scene as it grows", sizes_table(m.sizes, timed));
-    both("compressed", "Compressed nodes, diffuse rays", compressed_table(m, timed));
-    both("widths", "Four or eight children", choices_table(m.widths, "children", timed));
-    both("leaf_sizes", "Triangles of a leaf", choices_table(m.leaf_sizes, "leaves", timed));
-    both("high", "Better binary trees", choices_table(m.high, "builder", timed));
-    both("modes", "Several rays at once", modes_table(m.modes, timed));
-    both("aimed", "Rays at edges and vertices", aimed_table(m.aimed, timed));
-    count("exact", "Kernels beside the naive loop", exact_table(m.kernels));
+    add("answers", "The same rays: answers that are not the binary tree's", answers_table(m.peers));
+    add("builds", "Builds and memory", builds_table(m.builds, timed));
+    add("sizes", "One scene as it grows", sizes_table(m.sizes, timed));
+    add("compressed", "Compressed nodes, diffuse rays", compressed_table(m, timed));
+    add("widths", "Four or eight children", choices_table(m.widths, "children", timed));
+    add("leaf_sizes", "Triangles of a leaf", choices_table(m.leaf_sizes, "leaves", timed));
+    add("high", "Better binary trees", choices_table(m.high, "builder", timed));
+    add("modes", "Several rays at once", modes_table(m.modes, timed));
+    add("aimed", "Rays at edges and vertices", aimed_table(m.aimed, timed));
+    add("exact", "Kernels beside the naive loop", exact_table(m.kernels));
     time("goals", "What was wanted", goals_table(goals_of(m)));
     return all;
 }
@@ -418,20 +413,20 @@ void print_fast(const FastMeasurements& measured, bool times) {
 }
 
 void quote_fast(const FastMeasurements& measured, bool times, Numbers& numbers) {
-    for (const NamedTable& each : all_tables(measured, times))
-        if (each.is_count)
-            numbers.count_table(each.name, each.table);
-        else
-            numbers.time_table(each.name, each.table);
     const auto sum = [](const auto& points, const auto& of) {
         std::uint64_t all = 0;
         for (const auto& p : points) all += of(p);
         return all;
     };
     numbers.count("exact_wrong", wrong_answers(measured));
-    numbers.count("modes_rays", sum(measured.modes, [](const ModePoint& p) { return p.rays; }));
-    numbers.count("modes_differ", sum(measured.modes, [](const ModePoint& p) { return p.differ; }));
+    // The rest hangs on the machine: its instruction sets, its scenes, or its times.
     if (!times) return;
+    for (const NamedTable& each : all_tables(measured, times))
+        numbers.time_table(each.name, each.table);
+    for (const auto& [name, count] :
+         {std::pair{"modes_rays", sum(measured.modes, [](const ModePoint& p) { return p.rays; })},
+          {"modes_differ", sum(measured.modes, [](const ModePoint& p) { return p.differ; })}})
+        numbers.time(name, double(count), with_commas(count));
     numbers.time("kernel_rays", 0.0,
                  with_commas(sum(measured.kernels, [](const KernelPoint& p) { return p.rays; })));
     numbers.time("kernel_differ", 0.0,
