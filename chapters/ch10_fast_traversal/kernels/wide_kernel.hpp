@@ -138,10 +138,13 @@ struct NothingWaits {
 template <class Layout>
 struct FetchWaiting {
     const KernelTree& tree;
+
     SPACE_INLINE void operator()(uint32_t child) const {
         // By tables of two: whether it is a leaf, nobody could guess.
-        const char* const place = (&tree.nodes)[child >> 31] +
-                                  (child & Layout::index_mask) * Layout::strides[child >> 31];
+        const char* const begins[2]{tree.nodes, tree.blocks};
+        const uint32_t is_leaf = child >> 31;
+        const char* const place =
+            begins[is_leaf] + size_t(child & Layout::index_mask) * Layout::strides[is_leaf];
         for (unsigned line = 0; line < Layout::lines; ++line) __builtin_prefetch(place + 64 * line);
     }
 };
