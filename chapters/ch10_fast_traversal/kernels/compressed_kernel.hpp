@@ -65,7 +65,7 @@ struct CompressedLayout {
     // [gathered_block]
     /// A leaf's triangles, gathered corner by corner into a block as wide trees have them.
     struct Leaf {
-        alignas(32) float rows[10][4];
+        alignas(32) float rows[10][4] = {};  // what is in an empty lane is reckoned with, too
         const char* block;
         const char* triangles;  ///< that are left; none after the last
         const float* corners;
