@@ -47,9 +47,9 @@ struct FloatBox {
         low = smaller_of(low, p);
         high = larger_of(high, p);
     }
-    /// Half the surface; not a number where coordinates are so large that it overflows.
-    float half_area() const {
-        const FourFloats e = high - low;
+    /// Half the surface of the box times `scale`; infinite, or no number, where a side is.
+    float half_area(float scale) const {
+        const FourFloats e = (high - low) * scale;
         return e[0] * e[1] + (e[0] + e[1]) * e[2];
     }
     FourFloats middle() const { return 0.5f * low + 0.5f * high; }

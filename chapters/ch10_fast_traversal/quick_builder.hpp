@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -48,6 +49,7 @@ class QuickBuild {
         tree_.references.resize(items_.size());
         spare_.resize(items_.size());
         std::vector<Task> waiting{{.node = 0, .end = items_.size(), .part = part_of(items_)}};
+        scale_ = scale_of(waiting[0].part.box);
         while (!waiting.empty()) {
             const Task task = waiting.back();
             waiting.pop_back();
@@ -109,6 +111,13 @@ class QuickBuild {
     };
     static constexpr std::size_t most_bins = 16;
 
+    /// A power of two: the longest side of the box times this is from 1 to 2. Without it areas of
+    /// small scenes are 0, those of large ones infinite, and one cut is as good as the other.
+    static float scale_of(const FloatBox& box) {
+        const FourFloats e = 0.5f * box.high - 0.5f * box.low;  // the whole may be infinite
+        const float half = std::max({e[0], e[1], e[2]});
+        return half > 0.0f ? std::ldexp(0.5f, std::clamp(-std::ilogb(half), -125, 127)) : 1.0f;
+    }
     static Part part_of(std::span<const Item> range) {
         Part part;
         for (const Item& item : range) part.add(item.box);
@@ -187,7 +196,7 @@ class QuickBuild {
             for (std::size_t i = bins; i-- > 1;) {
                 box.extend(of[i].box);
                 count += of[i].count;
-                after[i] = count > 0 ? box.half_area() * blocks(count) : infinity;
+                after[i] = count > 0 ? box.half_area(scale_) * blocks(count) : infinity;
             }
             box = {};
             count = 0;
@@ -195,7 +204,7 @@ class QuickBuild {
                 box.extend(of[i - 1].box);
                 count += of[i - 1].count;
                 if (of[i - 1].count == 0 || count == size) continue;
-                const float cost = box.half_area() * blocks(count) + after[i];
+                const float cost = box.half_area(scale_) * blocks(count) + after[i];
                 if (cost < best.cost) best = {axis, i, bins, cost};
             }
         }
@@ -238,7 +247,7 @@ class QuickBuild {
 
     // [quick_last]
     /// Two to four triangles: every way to part them; bit i of `second` says where triangle i goes.
-    static Cut best_of_all(std::span<Item> range) {
+    Cut best_of_all(std::span<Item> range) const {
         unsigned best = 1;
         float best_cost = infinity;
         for (unsigned second = 1; second < 1u << (range.size() - 1); ++second) {
@@ -248,8 +257,8 @@ class QuickBuild {
                 boxes[second >> i & 1].extend(range[i].box);
                 ++counts[second >> i & 1];
             }
-            const float cost =
-                boxes[0].half_area() * float(counts[0]) + boxes[1].half_area() * float(counts[1]);
+            const float cost = boxes[0].half_area(scale_) * float(counts[0]) +
+                               boxes[1].half_area(scale_) * float(counts[1]);
             if (cost < best_cost) best = second, best_cost = cost;
         }
         Cut cut{};
@@ -266,6 +275,7 @@ class QuickBuild {
     // [quick_last]
 
     QuickConfig config_;
+    float scale_ = 1.0f;                                         ///< of areas
     std::vector<Item, CacheLineAllocator<Item>> items_, spare_;  ///< in a spare room all find place
     std::array<std::array<Bin, most_bins>, 3> bins_;
     BvhNodes<3> tree_;

@@ -2,6 +2,7 @@
 #include "chapters/ch01_naive_ray_tracing/moller_trumbore.hpp"
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
+#include "chapters/ch07_bounding_volume_hierarchies/bvh_nodes.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/many_rays.hpp"
 #include "chapters/ch10_fast_traversal/quick_builder.hpp"
@@ -9,6 +10,7 @@
 #include "common/geometry.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch10/every_kernel.hpp"
+#include "tests/suite/adversarial_scenes.hpp"
 
 #include <cmath>
 #include <string>
@@ -49,6 +51,20 @@ TEST_CASE("a ray along the boxes' planes meets them, however small they are besi
                 CHECK(any_hit(bvh, ray) == any_hit(naive, ray));
             }
         });
+    }
+}
+
+// Areas were products of floats: 0 in small scenes, infinite in large ones.
+TEST_CASE("a scene times a power of two gets the same tree from the quick builder") {
+    const std::vector<Triangle> triangles = scenes::soup(500, 0.1f, 1);
+    const BvhNodes<3> expected = QuickBuilder::build<3>(triangles);
+    for (const int exponent : {-95, -70, -40, 40, 70, 100, 126}) {
+        const float scale = std::ldexp(1.0f, exponent);
+        const BvhNodes<3> tree = QuickBuilder::build<3>(
+            scenes::mapped(triangles, [&](const Point3& p) { return p * scale; }));
+        CAPTURE(exponent);
+        CHECK(tree.depth == expected.depth);
+        CHECK(tree.references == expected.references);
     }
 }
 
