@@ -236,14 +236,15 @@ walk = """
     const list = document.querySelectorAll("ol.steps")[NUMBER], bar = list.previousElementSibling;
     const drawing = bar.previousElementSibling, seen = (element) => getComputedStyle(element).visibility === "visible";
     const sticking = () => {STICKING_OUT};
-    const look = () => ({tells: [...list.children].filter(seen).map((item) => item.textContent),
+    // What sticks out at a step is looked for on the way forth, where each step is first seen.
+    const look = (first_seen = false) => ({tells: [...list.children].filter(seen).map((item) => item.textContent),
             groups: [...drawing.querySelectorAll("[data-first]")].map((group) => group.getAttribute("display") !== "none"),
             buttons: [...bar.querySelectorAll("button")].map((button) => !button.disabled),
             count: bar.querySelector("output").textContent,
-            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top, wide: sticking()});
+            height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top, wide: first_seen ? sticking() : []});
     const [first, back, forth, last] = bar.querySelectorAll("button");
-    const press = (button) => { button.click(); return look(); }, seconds = [...list.children].slice(1);
-    return {start: look(), next: seconds.map(() => press(forth)), back: seconds.map(() => press(back)).reverse(),
+    const press = (button) => { button.click(); return look(button === forth); }, seconds = [...list.children].slice(1);
+    return {start: look(true), next: seconds.map(() => press(forth)), back: seconds.map(() => press(back)).reverse(),
             last: press(last), first: press(first)};
     """.replace("STICKING_OUT", sticking_out.replace("ELEMENTS", "list.parentElement.querySelectorAll('*')"))
 state = "const list = document.querySelectorAll('ol.steps')[NUMBER], bar = list.previousElementSibling;" \

@@ -129,6 +129,37 @@ TEST_CASE("no path is too long, no scale too small or too large") {
         }
 }
 
+TEST_CASE("a ray that grazes the triangle, a triangle that is tiny, and a sliver have sides, too") {
+    const Path path{diagonal(1, 1, -1)};
+    const Triangle turned = placed(flat, path);
+    REQUIRE(sees_front({1, 0, 0x1p-30f}, turned, path));
+    REQUIRE(!sees_front({1, 0, -0x1p-30f}, turned, path));
+    const Path small{diagonal(0x1p-40, 0x1p-40, -0x1p-40)};
+    const Triangle tiny = placed(flat, small);
+    REQUIRE(sees_front({0, 0, 0x1p-10f}, tiny, small));
+    REQUIRE(!sees_front({0, 0, -0x1p-10f}, tiny, small));
+    const Triangle sliver{{0, 0, 0}, {8193, 8192, 0}, {8192, 8191, 0}};  // its normal is (0, 0, -1)
+    check_sides(sliver, {});
+    check_sides(sliver, {swapped});
+}
+
+TEST_CASE("no path is too long for scales that differ by axis") {
+    // Not one of the determinants is far from 1. But a product of the first half has entries
+    // from 10^-4000 to 10^4000.
+    for (const std::size_t mirrors : {0u, 1u, 2u, 3u}) {
+        Path path;
+        for (std::size_t i = 0; i < 200; ++i) {
+            const double scale = i < 100 ? 1e-40 : 1e40;
+            path.push_back(diagonal(scale, i < mirrors ? -1 : 1, 1 / scale));
+        }
+        CAPTURE(mirrors);
+        const Triangle world = mirrors % 2 ? Triangle{{0, 0, 0}, {1, 0, 0}, {0, -1, 0}} : flat;
+        REQUIRE(sees_front({0, 0, -1}, world, path));
+        REQUIRE(!sees_front({0, 0, 1}, world, path));
+        REQUIRE(glm::dot(normal(with_front_restored(world, path)), Double3(0, 0, 1)) > 0.0);
+    }
+}
+
 TEST_CASE("random paths: the front is where a point above the triangle went") {
     Pcg32 random(95);
     for (int i = 0; i < 1000; ++i) {

@@ -87,6 +87,22 @@ TEST_CASE("the growth need not be even") {
     check(30, 3, {1, 2, 5, 12, 28, 60, 130, 270, 550, 1110, 2230});
 }
 
+TEST_CASE("long animations of dear frames, whose sums differ by little") {
+    Pcg32 random(10);
+    for (int round = 0; round < sized(8, 2); ++round) {
+        std::vector<double> rays;
+        double now = 900'000.0;
+        for (std::uint32_t frames = 1500 + random.below(100); frames > 0; --frames) {
+            rays.push_back(now);
+            now += random.below(round % 2 ? 3 : 50);
+        }
+        const double refit = 990'000.0 + random.below(5'000);
+        const double build = refit + random.below(4'000);
+        CAPTURE(round);
+        check(build, refit, rays);
+    }
+}
+
 TEST_CASE("random animations") {
     Pcg32 random(9);
     for (int round = 0; round < sized(4'000, 300); ++round) {

@@ -71,7 +71,7 @@ Svg fig_09_11(const Options& options) {
     Svg svg(
         "A sphere with nine smaller ones on it, each with nine smaller ones, and so on, and two "
         "parts of it enlarged",
-        640, 712);
+        640, 720);
     constexpr Panel panels[] = {{0, 0, 640, 420}, {0, 452, 316, 240}, {324, 452, 316, 240}};
     const char* const names[] = {"the whole", "27 times nearer", "729 times nearer"};
     Affine place;

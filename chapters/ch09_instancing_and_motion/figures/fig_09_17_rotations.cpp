@@ -8,6 +8,7 @@
 #include "common/scene.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <map>
 #include <optional>
@@ -104,7 +105,10 @@ void draw_boxes(Svg& svg, const Moment& moment) {
     for (std::size_t i = 0; i < moment.segments.size(); ++i) {
         const Double2 a(moment.segments[i].a), b(moment.segments[i].b);
         draw_segment(svg, view, a, b, {.stroke = {}, .fill = Ink::ink});
-        svg.text(moved(view(0.5 * (a + b)), 10, -8),
+        // Beside the segment's middle, above it; the letter's own middle is 7 above its line.
+        const Double2 along = glm::normalize(b - a);
+        const double side = along.x < 0.0 ? -17.0 : 17.0;
+        svg.text(moved(view(0.5 * (a + b)), -side * along.y, 7 - side * along.x),
                  fmt::format("*{}*", static_cast<char>('A' + i)), {.size = 20, .halo = true});
     }
 }
