@@ -183,13 +183,14 @@ std::string chapter_table(const Places& places, const std::vector<Chapter>& chap
         if (chapter.here)
             state = fmt::format(
                 "<a href=\"figures.html#figures_{0}\">{1}</a> <a "
-                "href=\"exercises.html#exercises_{0}\">{2}</a> "
-                "<a href=\"ledger.html#claims_{0}\">{3}</a>",
+                "href=\"exercises.html#exercises_{0}\">{2}</a>",
                 chapter.folder,
                 plural(std::ranges::count(figures, chapter.folder, &Figure::chapter), "figure"),
                 plural(std::ranges::count(exercises, chapter.folder, &Exercise::chapter),
-                       "exercise"),
-                plural(owed, "claim"));
+                       "exercise"));
+        if (chapter.here && owed > 0)
+            state += fmt::format(" <a href=\"ledger.html#claims_{}\">{}</a>", chapter.folder,
+                                 plural(owed, "claim"));
         rows += fmt::format(
             "<li class=\"{}\"><span class=\"number\">{}</span><div><b>{}</b><p>{}</p></div><span "
             "class=\"state\">{}</span></li>\n",
