@@ -59,22 +59,51 @@ Image side_by_side(const std::vector<Image>& images, int gap) {
     return row;
 }
 
+namespace {
+
+void append_to(void* text, void* data, int size) {
+    static_cast<std::string*>(text)->append(static_cast<const char*>(data),
+                                            static_cast<std::size_t>(size));
+}
+
+Error cannot_encode(const char* format, const Image& image) {
+    return output_error(std::string("cannot encode a ") + format + " picture of " +
+                        std::to_string(image.width()) + " x " + std::to_string(image.height()) +
+                        " pixels");
+}
+
+}  // namespace
+
 std::string png_bytes(const Image& image) {
     const std::vector<std::uint8_t> pixels = srgb_bytes(image);
     std::string png;
-    const auto append = [](void* context, void* data, int size) {
-        static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                                   static_cast<std::size_t>(size));
-    };
-    if (!stbi_write_png_to_func(append, &png, image.width(), image.height(), 3, pixels.data(),
+    if (!stbi_write_png_to_func(append_to, &png, image.width(), image.height(), 3, pixels.data(),
                                 3 * image.width()))
-        throw output_error("cannot encode a PNG picture of " + std::to_string(image.width()) +
-                           " x " + std::to_string(image.height()) + " pixels");
+        throw cannot_encode("PNG", image);
     return png;
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {
     write_file(file, png_bytes(image));
+}
+
+std::string hdr_bytes(const Image& image) {
+    std::vector<float> values;
+    values.reserve(std::size_t(image.width()) * std::size_t(image.height()) * 3);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                const float value = image.at(x, y)[channel];
+                values.push_back(value > 0.0f ? std::min(value, 1e38f) : 0.0f);
+            }
+    std::string hdr;
+    if (!stbi_write_hdr_to_func(append_to, &hdr, image.width(), image.height(), 3, values.data()))
+        throw cannot_encode("Radiance", image);
+    return hdr;
+}
+
+void write_hdr(const std::filesystem::path& file, const Image& image) {
+    write_file(file, hdr_bytes(image));
 }
 
 }  // namespace space

@@ -1,5 +1,5 @@
 /// @file
-/// Pictures: linear colours in memory, sRGB bytes in PNG files.
+/// Pictures: linear colours in memory, sRGB bytes in PNG files, or all light in Radiance's.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -49,5 +49,13 @@ std::string png_bytes(const Image& image);
 
 /// @throws Error (bad_output)
 void write_png(const std::filesystem::path& file, const Image& image);
+
+/// The picture as the bytes of a Radiance file (.hdr): linear, of any brightness; three mantissas
+/// of 8 bits share an exponent (Ward 1991, "Real Pixels"). NaN and what is below 0 become 0, what
+/// is beyond 1e38 becomes 1e38.
+std::string hdr_bytes(const Image& image);
+
+/// @throws Error (bad_output)
+void write_hdr(const std::filesystem::path& file, const Image& image);
 
 }  // namespace space

@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace space {
 namespace {
@@ -23,9 +26,18 @@ bool on_terminal() {
 
 }  // namespace
 
-Progress::Progress(std::string job, std::size_t steps)
+std::string duration_text(double seconds) {
+    // Beyond a century the number of hours is no news.
+    const auto whole = static_cast<std::uint64_t>(std::clamp(std::ceil(seconds), 0.0, 3e9));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+Progress::Progress(std::string job, std::size_t steps, double time_limit)
     : job_(std::move(job)),
       steps_(steps),
+      time_limit_(time_limit),
       start_(std::chrono::steady_clock::now()),
       last_(start_) {}
 
@@ -40,22 +52,27 @@ void Progress::step(std::size_t count) {
     const auto now = std::chrono::steady_clock::now();
     if (now - start_ < silent_for || now - last_ < (on_terminal() ? bar_every : line_every)) return;
     last_ = now;
-    draw(done);
+    draw(done, std::chrono::duration<double>(now - start_).count());
 }
 
-void Progress::draw(std::size_t done) {
+void Progress::draw(std::size_t done, double seconds) {
     drawn_ = true;
-    const std::size_t percent = steps_ ? 100 * done / steps_ : 100;
+    // As if the steps to come took as long as those before; or the time limit comes first.
+    const double part = std::clamp(
+        std::max(steps_ ? double(done) / double(steps_) : 1.0, seconds / time_limit_), 0.0, 1.0);
+    const auto percent = static_cast<std::size_t>(100.0 * part);
+    const std::string left =
+        part > 0.0 ? fmt::format(", {} left", duration_text(seconds * (1.0 / part - 1.0))) : "";
     if (!on_terminal()) {
-        fmt::print(stderr, "{}: {} %\n", job_, percent);
+        fmt::print(stderr, "{}: {} %{}\n", job_, percent, left);
         return;
     }
     constexpr std::size_t cells = 30;
     const std::size_t full = std::min(cells, percent * cells / 100);
     const bool color = std::getenv("NO_COLOR") == nullptr;
-    fmt::print(stderr, "\r\033[K{} {}{}{}{} {} %", job_, color ? "\033[34m" : "",
+    fmt::print(stderr, "\r\033[K{} {}{}{}{} {} %{}", job_, color ? "\033[34m" : "",
                std::string(full, '#'), color ? "\033[0m" : "", std::string(cells - full, '.'),
-               percent);
+               percent, left);
     std::fflush(stderr);
 }
 
