@@ -21,6 +21,13 @@ inline double luminance(const Double3& color) {
     return glm::dot(color, Double3(0.2126, 0.7152, 0.0722));
 }
 
+/// A point of the triangle, uniform in area, for two uniform numbers: on a line parallel to the
+/// edge from a to c, whose length grows with the distance from b.
+inline Double3 uniform_point(const Triangle& triangle, const Double2& u) {
+    const Double3 a{triangle.a}, b{triangle.b}, c{triangle.c};
+    return glm::mix(b, glm::mix(a, c, u.x), std::sqrt(u.y));
+}
+
 /// A triangle that emits from its front, and how often it is chosen.
 struct TriangleLight {
     Triangle triangle;
@@ -132,8 +139,7 @@ inline double solid_angle_pdf(const TriangleLight& light, const SphericalTriangl
 inline LightSample sample_light_area(const LightTable& table, const Double3& from, double choice,
                                      const Double2& u) {
     const TriangleLight& light = table.choose(choice);
-    const Double3 a{light.triangle.a}, b{light.triangle.b}, c{light.triangle.c};
-    const Double3 to = glm::mix(b, glm::mix(a, c, u.x), std::sqrt(u.y)) - from;
+    const Double3 to = uniform_point(light.triangle, u) - from;
     return light_sampling::towards(light, to, from, [&](double cosine, double distance) {
         return area_pdf(light, cosine, distance);
     });
