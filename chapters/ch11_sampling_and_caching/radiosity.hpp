@@ -137,15 +137,16 @@ inline std::vector<double> wall_exchange(std::span<const Wall> walls, int cuts) 
     return exchange;
 }
 
-/// The mean radiance of each wall of the room, from patches of cuts x cuts and twice as many.
+/// The mean radiance of each wall of the room, from patches of cuts x cuts and of twice as many
+/// each way; `cuts` is at least 2.
 ///
 /// Let H be the exact exchange and H' that of patches. H - H' has no negative eigenvalue: with the
 /// roots of the reflectances taken to both sides the operator I - sqrt(r) F sqrt(r) is symmetric
 /// and positive, and the patches' solution is the best of all that are constant on them. So an
 /// entry is wrong by no more than the root of the product of its two diagonal entries' errors.
-/// Where light has a slope the square of the error, which the diagonal is, falls to a quarter with
-/// twice as many cuts; what is taken for certain is no more than that it falls to a half: then the
-/// finer diagonal is wrong by no more than it differs from the coarser.
+/// These are squares: with twice as many cuts they fall to a quarter where the light has a slope.
+/// Taken for certain is less, a half: then the finer diagonal is wrong by no more than it differs
+/// from the coarser one.
 inline std::vector<WallRadiance> wall_radiances(std::span<const Wall> walls, int cuts) {
     const std::size_t n = walls.size();
     const std::vector<double> coarse = wall_exchange(walls, cuts),

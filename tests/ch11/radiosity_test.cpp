@@ -148,10 +148,10 @@ TEST_CASE("the exchange is symmetric, and its diagonal grows with the cuts") {
 }
 
 TEST_CASE("with each doubling of the cuts the diagonal changes by less than half as much") {
-    // Which is what the bound takes for certain.
+    // Which is what the bound takes for certain; from one patch a wall to four it is not yet so.
     const auto walls = room(3, 2, 1.5, colourful);
     std::vector<std::vector<double>> levels;
-    for (int cuts = 1; cuts <= sized(8, 4); cuts *= 2) levels.push_back(wall_exchange(walls, cuts));
+    for (int cuts = 2; cuts <= 8; cuts *= 2) levels.push_back(wall_exchange(walls, cuts));
     for (std::size_t level = 2; level < levels.size(); ++level)
         for (std::size_t i = 0; i < 36; i += 7) {
             const double last = levels[level][i] - levels[level - 1][i];
@@ -164,13 +164,13 @@ TEST_CASE("with each doubling of the cuts the diagonal changes by less than half
 TEST_CASE("finer cuts stay within the bounds of coarser ones") {
     auto walls = room(1, 1, 1, colourful);
     walls[1].emission = 1.0;
-    const std::vector<WallRadiance> fine = wall_radiances(walls, sized(4, 2));
-    for (int cuts = 1; cuts < sized(4, 2); cuts *= 2) {
+    const std::vector<WallRadiance> fine = wall_radiances(walls, 4);
+    for (const int cuts : {1, 2}) {
         const std::vector<WallRadiance> coarse = wall_radiances(walls, cuts);
         for (std::size_t k = 0; k < 6; ++k) {
             CAPTURE(cuts, k);
             CHECK(std::abs(fine[k].radiance - coarse[k].radiance) < coarse[k].error);
-            CHECK(fine[k].error < 0.6 * coarse[k].error);
+            CHECK(fine[k].error < 0.5 * coarse[k].error);
         }
     }
     CHECK(fine[0].error < 0.03 * fine[0].radiance);
