@@ -1,12 +1,16 @@
 /// @file
 /// The lit scenes, each made for what it shows. Metres; y is up.
 #include "chapters/ch11_sampling_and_caching/lit_stage.hpp"
+#include "common/program/error.hpp"
 #include "common/scenes/shapes.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace space {
 namespace {
@@ -61,7 +65,7 @@ void add_stand(LitStage& stage, bool small) {
 /// The light's distance from a point below it changes by much over the light.
 void make_near(LitStage& stage, bool small) {
     add_stand(stage, small);
-    stage.add_light(downwards({-0.125, 0.05, -0.125}, 0.25, 0.25), Color{1.6f, 1.5f, 1.3f});
+    stage.add_light(downwards({-0.125, 0.05, -0.125}, 0.25, 0.25), Color{4.0f, 3.7f, 3.2f});
     stage.scene.camera.eye.y = 0.4f;
 }
 
@@ -106,16 +110,15 @@ void make_ring(LitStage& stage, bool small) {
         .eye = {0, 1.15f, 1.45f}, .target = {0, 0.04f, 0.02f}, .field_of_view = 42};
 }
 
-/// A lamp on a cupboard shines at the ceiling: all else has its light from other surfaces.
+/// A lamp that hangs below the ceiling shines at it: all else has its light from other surfaces.
 void make_interior(LitStage& stage, bool small) {
-    const Color plaster{0.8f, 0.76f, 0.68f};
+    const Color plaster{0.8f, 0.76f, 0.68f}, teal{0.30f, 0.45f, 0.48f};
     stage.add_closed_room({-2, 0, -2}, {2, 2.5, 2.5}, plaster, {0.62f, 0.26f, 0.17f}, plaster,
                           wood);
-    stage.add(box({-2, 0, -1.5}, {-1.5, 1.75, 1}), {0.30f, 0.45f, 0.48f});
-    // In a tray, so that it shines at no wall that is seen.
-    const auto upwards = parallelogram({-1.875, 1.76, -1.25}, {0, 0, 2}, {0.25, 0, 0});
-    stage.add_light(upwards, Color{26.0f, 22.0f, 16.0f});
-    stage.add(box({-1.53, 1.75, -1.5}, {-1.5, 1.875, 1}), {0.30f, 0.45f, 0.48f});
+    stage.add(box({-0.75, 1.8, -1.25}, {0.75, 1.86, 0.25}), teal);
+    stage.add_light(parallelogram({-0.75, 1.8625, -1.25}, {0, 0, 1.5}, {1.5, 0, 0}),
+                    Color{6.5f, 5.6f, 4.3f});
+    stage.add(box({-2, 0, -1.5}, {-1.5, 1.25, 1}), teal);
     stage.add(box({-0.25, 0.68, -1.25}, {1.25, 0.72, -0.35}), wood);
     for (const double x : {-0.2, 1.14})
         for (const double z : {-1.2, -0.46})
@@ -138,6 +141,25 @@ void make_wall(LitStage& stage, bool) {
     stage.add(box({-0.0078125, 0, back}, {0.0078125, height, front}), white);
     stage.add_light(downwards({-1.0, 1.484375, -0.5}, 0.5, 0.5), Color{7.0f, 6.4f, 5.4f});
     stage.scene.camera = {.eye = {0, 1.1f, 3.3f}, .target = {0, 0.7f, 0}, .field_of_view = 36};
+}
+
+/// Four panes in a frame on the wall at `x`, which see the room to the right of it.
+void add_window(LitStage& stage, double x, const Double2& z, const Double2& y,
+                const Color& radiance) {
+    constexpr double bar = 0.05, half = 0.5 * bar;
+    const double middle_z = 0.5 * (z.x + z.y), middle_y = 0.5 * (y.x + y.y);
+    for (const Double2& depth : {Double2{z.x, middle_z - half}, Double2{middle_z + half, z.y}})
+        for (const Double2& height : {Double2{y.x, middle_y - half}, Double2{middle_y + half, y.y}})
+            stage.add_light(parallelogram({x + 0.01, height.x, depth.x},
+                                          {0, height.y - height.x, 0}, {0, 0, depth.y - depth.x}),
+                            radiance);
+    const auto add_bar = [&](double low_z, double high_z, double low_y, double high_y) {
+        stage.add(box({x, low_y, low_z}, {x + 0.04, high_y, high_z}), {0.82f, 0.8f, 0.76f});
+    };
+    add_bar(z.x - bar, z.x, y.x - bar, y.y + bar);
+    add_bar(z.y, z.y + bar, y.x - bar, y.y + bar);
+    add_bar(middle_z - half, middle_z + half, y.x, y.y);
+    for (const double low : {y.x - bar, middle_y - half, y.y}) add_bar(z.x, z.y, low, low + bar);
 }
 
 constexpr LitMaker makers[] = {
@@ -167,11 +189,11 @@ void make_lit_room(LitStage& stage, std::string_view spec, std::uint64_t seed, b
     stage.mirror.assign(stage.scene.mesh.faces.size(), 0);
     stage.scene.lights.clear();
     stage.scene.background = Color(0.0f);
-    stage.add_light(downwards({-0.09, 1.93, -0.09}, 0.18, 0.18), Color{34.0f, 24.0f, 13.0f});
-    // A pane in the right wall, between its frame's bars.
-    for (const double z : {0.0, 0.76})
-        stage.add_light(parallelogram({2.29, 0.95, z}, {0, 0, 0.7}, {0, 1.25, 0}),
-                        Color{6.5f, 7.6f, 9.0f});
+    // The lamp's bulb, below its shade's inside.
+    stage.add_light(downwards({-0.09, 1.9, -0.09}, 0.18, 0.18), Color{88.0f, 62.0f, 34.0f});
+    add_window(stage, -2.1, {-1.45, -0.25}, {0.95, 2.15}, Color{5.6f, 6.6f, 7.8f});
+    stage.scene.camera = {
+        .eye = {0.8f, 1.42f, 2.35f}, .target = {-0.22f, 1.06f, 0.0f}, .field_of_view = 48};
 }
 
 void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small) {
@@ -185,8 +207,10 @@ void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed,
     const Aabb box = bounds(scene.mesh);
     const Double3 low(box.min), high(box.max), middle = 0.5 * (low + high), eye(scene.camera.eye);
     const double reach = 1.25 * std::max(glm::length(eye - middle), glm::length(high - low));
-    const Double3 min{middle.x - reach, low.y, middle.z - reach},
+    const Double3 min{middle.x - reach, std::min(low.y, eye.y - 0.1 * reach), middle.z - reach},
         max{middle.x + reach, std::max(eye.y, high.y) + 0.5 * reach, middle.z + reach};
+    if (!is_finite<3>(Point3(min)) || !is_finite<3>(Point3(max)))
+        throw input_error(std::string(spec) + ": too large: the studio around it has no floats");
     stage.add(turned_inside_out(space::box(min, max)), Color{0.62f, 0.60f, 0.57f});
     const Double3 light{middle.x - 0.6 * reach, max.y - 0.1 * reach, middle.z + 0.55 * reach};
     stage.add_panel(light, middle, 0.3 * reach, Color{0.9f, 0.85f, 0.78f});
