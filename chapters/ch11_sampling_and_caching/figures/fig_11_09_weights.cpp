@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -47,7 +48,8 @@ struct AngleFrame {
     double width, height, most;
 
     Point2 operator()(double degrees, double value) const {
-        return moved(corner, width * (degrees + 90.0) / 180.0, height * (1.0 - value / most));
+        return moved(corner, width * (degrees + 90.0) / 180.0,
+                     height * (1.0 - std::min(value / most, 1.0)));
     }
     template <class Curve>
     void draw(Svg& svg, const Curve& curve, const Style& style) const {
@@ -71,7 +73,7 @@ struct AngleFrame {
 
 Svg fig_11_09(const Options&) {
     Svg svg("Densities of two ways to choose a direction, and the weights of their samples", 640,
-            470);
+            494);
     const AngleFrame densities{at(30, 36), 580, 160, 0.62}, weights{at(30, 262), 580, 160, 1.05};
     densities.draw_axes(svg, "densities");
     densities.draw(svg, [](const TwoDensities& p) { return p.cosine; }, {.stroke = Ink::blue});
@@ -90,7 +92,7 @@ Svg fig_11_09(const Options&) {
     svg.text(densities(0, 0.34), "by the cosine", {.ink = Ink::blue, .size = 17, .halo = true});
     svg.text(densities(48, 0.5), "by area",
              {.anchor = Anchor::end, .ink = Ink::vermillion, .size = 17, .halo = true});
-    svg.text(at(320, 462), "full: balance heuristic; dashed: power heuristic",
+    svg.text(at(320, 484), "full: balance heuristic; dashed: power heuristic",
              {.ink = Ink::quiet, .size = 17});
     return svg;
 }

@@ -30,8 +30,8 @@ Image fig_11_11(const Options& options) {
     const PhotonConfig few{.count = 20'000, .threads = options.threads};
     const PhotonTrace caustic = trace_aimed_photons(ring.tree, ring.lit, ring.lights, few);
     const PhotonTrace all = trace_photons(box.tree, box.lit, box.lights, few);
-    return side_by_side({with_photons(ring, ring.paths(16), caustic.photons),
-                         with_photons(box, box.paths(16), all.photons)});
+    return side_by_side({with_photons(ring, ring.paths(8), caustic.photons),
+                         with_photons(box, box.paths(8), all.photons)});
 }
 
 }  // namespace space::ch11

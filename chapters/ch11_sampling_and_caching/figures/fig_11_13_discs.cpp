@@ -15,10 +15,10 @@
 namespace space::ch11 {
 namespace {
 
-constexpr double floor_scale = 340;
+constexpr double floor_scale = 308;
 /// A point of the floor on the paper, seen from above.
 Point2 on_floor(const Double3& p) {
-    return at(12 + floor_scale * (p.x + 1.5), 12 + floor_scale * (p.z + 1.0));
+    return at(66 + floor_scale * (p.x + 1.5), 56 + floor_scale * (p.z + 1.0));
 }
 
 void draw_disc(Svg& svg, DensityEstimator& estimator, const PhotonMap& map, const Double3& query) {
@@ -43,7 +43,7 @@ Svg fig_11_13(const Options& options) {
     const PhotonTrace trace = trace_photons(wall.tree, wall.lit, wall.lights,
                                             {.count = 4'000, .threads = options.threads});
     const PhotonMap map = PhotonMap::build(trace.photons);
-    Svg svg("Photons on a floor, and the discs in which a point asks for them", 676, 622);
+    Svg svg("Photons on a floor, and the discs in which a point asks for them", 676, 640);
     svg.rect(on_floor({-1.5, 0, -1}), at(floor_scale * 1.5, floor_scale * 1.75),
              {.stroke = Ink::quiet});
     svg.line(on_floor({0, 0, -1}), on_floor({0.42, 0, -1}), {.stroke = Ink::quiet});

@@ -68,6 +68,23 @@ std::vector<PathVertex> path_of(const LitPicture& box, Ray ray, Sampler sampler)
     return path;
 }
 
+/// The room on the paper: what comes nearer goes to the left and down.
+Point2 oblique(const Double3& p) {
+    return at(352 + 212 * (p.x - 0.38 * p.z), 520 - 212 * (p.y - 0.26 * p.z));
+}
+
+/// Whether no two points lie near each other on the paper.
+bool is_readable(const std::vector<PathVertex>& path, const Double3& eye) {
+    std::vector<Point2> points{oblique(eye)};
+    for (const PathVertex& vertex : path) {
+        const Point2 next = oblique(vertex.position);
+        if (std::ranges::any_of(points, [&](Point2 p) { return glm::distance(p, next) < 80; }))
+            return false;
+        points.push_back(next);
+    }
+    return true;
+}
+
 /// The first path that ends after the fourth to sixth surface, with lamps seen and hidden.
 std::vector<PathVertex> instructive_path(const LitPicture& box) {
     Sampler sampler(SamplePattern::independent, 1, 1);
@@ -79,15 +96,11 @@ std::vector<PathVertex> instructive_path(const LitPicture& box) {
         const std::vector<PathVertex> path = path_of(box, ray, sampler);
         const auto lit = std::ranges::count_if(path, &PathVertex::is_lit);
         if (path.size() >= 4 && path.size() <= 6 && lit >= 2 &&
-            lit < static_cast<std::ptrdiff_t>(path.size()) && path.front().position.y < 1.6)
+            lit < static_cast<std::ptrdiff_t>(path.size()) &&
+            is_readable(path, Double3(ray.origin)))
             return path;
     }
     throw std::logic_error("figure 11.18 finds no path");
-}
-
-/// The room on the paper: what comes nearer goes to the left and down.
-Point2 oblique(const Double3& p) {
-    return at(352 + 212 * (p.x - 0.38 * p.z), 520 - 212 * (p.y - 0.26 * p.z));
 }
 
 void draw_room(Svg& svg, const LitPicture& box) {
@@ -95,7 +108,7 @@ void draw_room(Svg& svg, const LitPicture& box) {
         const Triangle& t = box.lit.triangles[i];
         const bool is_lamp = box.lit.emitted(static_cast<std::uint32_t>(i), true) != Double3(0.0);
         svg.polygon({oblique(Double3(t.a)), oblique(Double3(t.b)), oblique(Double3(t.c))},
-                    {.stroke = {}, .fill = is_lamp ? Ink::yellow : Ink::faint});
+                    {.stroke = {}, .fill = is_lamp ? Ink::yellow : Ink::faint, .opacity = 0.7});
     }
     const Double3 low{-1, 0, -1}, high{1, 2, 1.5};
     for (int axis = 0; axis < 3; ++axis)

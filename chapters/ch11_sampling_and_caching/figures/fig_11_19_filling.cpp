@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace space::ch11 {
 namespace {
 
 constexpr double filling_scale = 248, filling_accuracy = 0.3;
+
+/// Of the records that are new at each spacing of pixels: 16, 8, 4, 2, 1.
+constexpr std::array round_inks{Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::quiet};
 
 Point2 from_above(const Double3& p) {
     return at(86 + filling_scale * (p.x + 1.0), 10 + filling_scale * (p.z + 1.0));
@@ -63,7 +67,7 @@ Svg fig_11_19(const Options& options) {
                        fmt::format("Pixels {} apart: {} new records, {} in all.",
                                    i == 0 ? round.spacing : round.spacing / 2,
                                    round.records - before, round.records));
-        draw_records(svg, cache, before, round.records, step == 0 ? Ink::blue : Ink::green);
+        draw_records(svg, cache, before, round.records, round_inks[static_cast<std::size_t>(step)]);
         svg.end_group();
         before = round.records;
     }
