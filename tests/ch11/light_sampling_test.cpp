@@ -8,12 +8,14 @@
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace space {
