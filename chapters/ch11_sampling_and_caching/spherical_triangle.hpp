@@ -42,11 +42,11 @@ struct SphericalTriangle {
 };
 
 /// The point of the edge from p to q (lengths |p| and |q|) in the direction (1 - s) p / |p| +
-/// s q / |q|.
+/// s q / |q|; q where s is no number, as for a point that lies between the ends of an arc.
 inline Double3 on_edge(const Double3& p, double p_length, const Double3& q, double q_length,
                        double s) {
     const double p_part = (1.0 - s) * q_length, q_part = s * p_length;
-    return p + std::clamp(q_part / (p_part + q_part), 0.0, 1.0) * (q - p);
+    return p + std::max(0.0, std::min(1.0, q_part / (p_part + q_part))) * (q - p);
 }
 
 // [arvo]
@@ -69,8 +69,7 @@ inline Double3 sample_solid_angle(const SphericalTriangle& seen, const Double2& 
     const double det = std::abs(seen.volume) / (seen.a_length * seen.b_length * seen.c_length);
     const double k = 1.0 + glm::dot(a, b), q = glm::dot(c - a, c - a);
     const double g = half.x * det - half.y * glm::dot(a + b, c - a), tk = half.y * k;
-    const double divisor = g * g - tk * tk * q;
-    const double s = divisor == 0.0 ? u.x : tk * (2.0 * g - tk * q) / divisor;
+    const double s = tk * (2.0 * g - tk * q) / (g * g - tk * tk * q);
     const Double3 to = on_edge(seen.a, seen.a_length, seen.c, seen.c_length, s);
 
     const double to_length = glm::length(to);

@@ -225,10 +225,10 @@ std::optional<Meeting> random_meeting(Pcg32& random) {
         if (glm::length(glm::cross(e, f)) < 1e-4 * std::max(glm::dot(e, e), glm::dot(f, f)))
             return {};
     }
-    const auto sides = [](const Triangle& of, const Triangle& t, const Double3& n) {
+    const auto sides = [](const Triangle& of, const Triangle& t, const Double3& up) {
         int above = 0;
         for (int i = 0; i < 3; ++i)
-            above += glm::dot(Double3(t[i]) - Double3(of.a), n) > 0.0 ? 1 : 0;
+            above += glm::dot(Double3(t[i]) - Double3(of.a), up) > 0.0 ? 1 : 0;
         return above;
     };
     const bool apart = sides(m.triangles[0], m.triangles[1], n) == 3 &&
