@@ -190,8 +190,8 @@ void make_lit_room(LitStage& stage, std::string_view spec, std::uint64_t seed, b
     stage.scene.lights.clear();
     stage.scene.background = Color(0.0f);
     // The lamp's bulb, below its shade's inside.
-    stage.add_light(downwards({-0.09, 1.9, -0.09}, 0.18, 0.18), Color{88.0f, 62.0f, 34.0f});
-    add_window(stage, -2.1, {-1.45, -0.25}, {0.95, 2.15}, Color{5.6f, 6.6f, 7.8f});
+    stage.add_light(downwards({-0.09, 1.9, -0.09}, 0.18, 0.18), Color{140.0f, 98.0f, 54.0f});
+    add_window(stage, -2.1, {-1.45, -0.25}, {0.95, 2.15}, Color{5.4f, 6.4f, 7.8f});
     stage.scene.camera = {
         .eye = {0.8f, 1.42f, 2.35f}, .target = {-0.22f, 1.06f, 0.0f}, .field_of_view = 48};
 }
