@@ -10,13 +10,20 @@
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace space {
+
+namespace test {
+extern std::atomic<std::ptrdiff_t> allocations_left;  // tests/ch05/allocations.cpp
+}
+
 namespace {
 
 using Tree = Bvh<BinnedBuilder>;
@@ -100,6 +107,25 @@ TEST_CASE("photons show what paths show: the box, and light by way of a mirror")
                     }
             CAPTURE(name, gather_rays, photons.mean(), photons.error(), paths.mean());
             CHECK(photons.mean() == Approx(paths.mean()).epsilon(sized(0.03, 0.1)));
+        }
+    }
+}
+
+TEST_CASE("a ray allocates no memory, also where it gathers") {
+    for (const char* name : {"box", "ring"}) {
+        const LitTree scene(name);
+        const PhotonMaps maps = scene.maps({.count = 5'000}, 5'000);
+        const PixelGrid grid(scene.lit.scene.camera, 16, 16);
+        for (const int gather_rays : {0, 2}) {
+            PhotonLookup lookup(maps, {.gather_rays = gather_rays});
+            Sampler sampler(SamplePattern::stratified, 1, 1);
+            test::allocations_left = 0;  // the next one throws
+            for (int i = 0; i < 256; ++i) {
+                sampler.start(std::uint64_t(i), 0);
+                scene.by_photons(lookup, grid.ray_through(i % 16 + 0.5, i / 16 + 0.5), sampler);
+            }
+            const std::ptrdiff_t left = test::allocations_left.exchange(-1);
+            CHECK(left == 0);
         }
     }
 }
