@@ -9,7 +9,8 @@ Image fig_11_12(const Options& options) {
     const LitPicture ring("ring", 430, 330, options.threads);
     const PhotonMaps maps = PhotonMaps::build(
         ring.tree, ring.lit, ring.lights, {.count = 50'000, .threads = options.threads}, 400'000);
-    const PhotonLookupConfig lookup{.caustic = {.k = 100}, .indirect = {.k = 100}};
+    const PhotonLookupConfig lookup{.caustic = {.k = 100, .largest_radius = 0.05f},
+                                    .indirect = {.k = 100}};
     return side_by_side({ring.paths(32).image(), ring.photons(4, maps, lookup).image()});
 }
 
