@@ -26,7 +26,7 @@ Image with_photons(const LitPicture& picture, const Film& film, std::span<const 
 }  // namespace
 
 Image fig_11_11(const Options& options) {
-    const LitPicture ring("ring", 430, 330, options.threads), box("box", 430, 330, options.threads);
+    const LitPicture ring("ring", 360, 276, options.threads), box("box", 360, 276, options.threads);
     const PhotonConfig few{.count = 20'000, .threads = options.threads};
     const PhotonTrace caustic = trace_aimed_photons(ring.tree, ring.lit, ring.lights, few);
     const PhotonTrace all = trace_photons(box.tree, box.lit, box.lights, few);

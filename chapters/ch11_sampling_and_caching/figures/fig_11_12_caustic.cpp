@@ -6,7 +6,7 @@
 namespace space::ch11 {
 
 Image fig_11_12(const Options& options) {
-    const LitPicture ring("ring", 430, 330, options.threads);
+    const LitPicture ring("ring", 360, 276, options.threads);
     const PhotonMaps maps = PhotonMaps::build(
         ring.tree, ring.lit, ring.lights, {.count = 50'000, .threads = options.threads}, 400'000);
     const PhotonLookupConfig lookup{.caustic = {.k = 100, .largest_radius = 0.05f},

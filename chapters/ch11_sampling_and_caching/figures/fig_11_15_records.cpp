@@ -7,14 +7,14 @@
 namespace space::ch11 {
 
 Image fig_11_15(const Options& options) {
-    const LitPicture interior("interior", 430, 330, options.threads);
+    const LitPicture interior("interior", 360, 276, options.threads);
     const IrradianceCache cache = interior.cache({});
-    const Image picture = interior.cached(8, cache).image();
-    Image dotted = interior.cached(8, cache).image(0.4);
+    const Film film = interior.cached(4, cache);
+    Image dotted = film.image(0.4);
     for (const IrradianceRecord& record : cache.records())
         if (const auto at = interior.seen_at(record.position + 1e-3 * record.normal))
             dot(dotted, *at, 1, srgb(0xE69F00u));
-    return side_by_side({picture, dotted});
+    return side_by_side({film.image(), dotted});
 }
 
 }  // namespace space::ch11

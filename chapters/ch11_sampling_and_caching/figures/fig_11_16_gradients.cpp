@@ -9,7 +9,7 @@ Image fig_11_16(const Options& options) {
     const LitPicture interior("interior", 280, 210, options.threads);
     const auto by_cache = [&](bool gradients) {
         return interior.cached(
-            64, interior.cache({.accuracy = 0.5, .gradients = gradients, .coarsest = 16}));
+            32, interior.cache({.accuracy = 0.5, .gradients = gradients, .coarsest = 16}));
     };
     const Film constant = by_cache(false), linear = by_cache(true),
                reference = interior.paths(1024);

@@ -6,11 +6,11 @@
 namespace space::ch11 {
 
 Image fig_11_17(const Options& options) {
-    const LitPicture wall("wall", 430, 330, options.threads);
+    const LitPicture wall("wall", 320, 246, options.threads);
     const auto picture = [&](bool clamping) {
         const IrradianceCache cache =
             wall.cache({.accuracy = 0.4, .neighbour_clamping = clamping, .coarsest = 32});
-        return wall.cached(8, cache).image();
+        return wall.cached(4, cache).image();
     };
     return side_by_side({picture(false), picture(true)});
 }
