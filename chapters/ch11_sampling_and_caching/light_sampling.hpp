@@ -134,8 +134,8 @@ inline double solid_angle_pdf(const TriangleLight& light, const SphericalTriangl
     return seen.volume < 0.0 && seen.solid_angle > 0.0 ? light.probability / seen.solid_angle : 0.0;
 }
 
-/// A light chosen by `choice` and a point uniform in its area.
-/// @param choice, u uniform numbers in [0, 1)
+/// A light chosen by `choice` and a point uniform in its area; `choice` and `u` are uniform numbers
+/// in [0, 1).
 inline LightSample sample_light_area(const LightTable& table, const Double3& from, double choice,
                                      const Double2& u) {
     const TriangleLight& light = table.choose(choice);
@@ -145,8 +145,8 @@ inline LightSample sample_light_area(const LightTable& table, const Double3& fro
     });
 }
 
-/// A light chosen by `choice` and a point uniform in its solid angle.
-/// @param choice, u uniform numbers in [0, 1)
+/// A light chosen by `choice` and a point uniform in its solid angle; `choice` and `u` are uniform
+/// numbers in [0, 1).
 inline LightSample sample_light_solid_angle(const LightTable& table, const Double3& from,
                                             double choice, const Double2& u) {
     const TriangleLight& light = table.choose(choice);

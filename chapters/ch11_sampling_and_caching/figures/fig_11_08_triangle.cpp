@@ -62,7 +62,7 @@ Svg fig_11_08(const Options&) {
     Svg svg(
         "A lamp's triangle with strata and samples, uniform in its area and in the solid angle, "
         "from below and as the point sees it",
-        660, 620);
+        660, 586);
     const std::array<std::string, 2> names{"by area", "by solid angle"};
     for (std::size_t way = 0; way < 2; ++way)
         for (std::size_t view = 0; view < 2; ++view) {
@@ -74,7 +74,7 @@ Svg fig_11_08(const Options&) {
             for (int i = 0; i <= lamp_strata; ++i) {
                 const double u = double(i) / lamp_strata;
                 const bool is_side = i == 0 || i == lamp_strata;
-                const Style style{.stroke = is_side ? Ink::ink : Ink::sky};
+                const Style style{.stroke = is_side ? Ink::ink : Ink::faint};
                 if (!is_side) svg.polyline(drawing.line(0, u), style);
                 if (!is_side) svg.polyline(drawing.line(1, u), style);
             }

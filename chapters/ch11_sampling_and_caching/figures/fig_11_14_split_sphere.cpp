@@ -40,8 +40,7 @@ Svg fig_11_14(const Options&) {
     svg.text(moved(centre, 14, -58), "*n*", {.size = 18});
     svg.circle(centre, 5, {.stroke = {}, .fill = Ink::ink});
     svg.circle(moved(centre, step * split_radius, 0), 5, {.stroke = {}, .fill = Ink::vermillion});
-    svg.text(moved(centre, 0.5 * step * split_radius, 28), "d*x*",
-             {.ink = Ink::vermillion, .size = 18});
+    svg.text(moved(centre, 0.5 * step * split_radius, 28), "d*x*", {.size = 18, .halo = true});
     svg.line(centre, moved(centre, -0.77 * split_radius, 0.64 * split_radius),
              {.stroke = Ink::quiet});
     svg.text(moved(centre, -44, 62), "*R*", {.size = 18});
