@@ -1,3 +1,5 @@
+// The chapter's own are not the answer.
+#pragma GCC poison cosine_hemisphere cosine_hemisphere_pdf
 #include "ex01_pdf_of_the_cosine.hpp"
 
 #include "common/random.hpp"

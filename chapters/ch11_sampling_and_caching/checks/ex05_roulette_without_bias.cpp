@@ -100,7 +100,7 @@ TEST_CASE("all that go on carry the same") {
     }
 }
 
-TEST_CASE("hardly any light: few go on, and none carries too much or infinity") {
+TEST_CASE("hardly any light: few go on, but some, and none carries too much or infinity") {
     for (const double share : {1e-9, 1e-100, 1e-300, 5e-324}) {
         const Double3 t{share, share, 0.0};
         CAPTURE(share);
@@ -108,6 +108,10 @@ TEST_CASE("hardly any light: few go on, and none carries too much or infinity") 
         REQUIRE(after_roulette(t, 3, share) == black);  // u < q, not u <= q
         const Double3 after = after_roulette(t, 3, 0.0);
         REQUIRE((after == black || after == Double3(1.0, 1.0, 0.0)));
+        // Someone must: for the lowest u, or for the highest.
+        if (share > 1e-10) {
+            REQUIRE((after != black || after_roulette(t, 3, 1.0 - 0x1p-53) != black));
+        }
     }
 }
 
