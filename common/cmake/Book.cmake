@@ -335,6 +335,12 @@ if(TARGET book_catch_main)
     target_link_libraries(book_test_headers PRIVATE book_catch_main book_common book_flags)
     target_compile_options(book_test_headers PRIVATE ${test_options})
     target_precompile_headers(book_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch.hpp ${BOOK_HEADERS})
+
+    # How values print in the checks of exercises.
+    add_library(book_check STATIC ${PROJECT_SOURCE_DIR}/tests/check.cpp)
+    target_link_libraries(book_check PRIVATE book_flags PUBLIC book_common Catch2::Catch2)
+    target_compile_options(book_check PRIVATE ${test_options})
+    target_precompile_headers(book_check REUSE_FROM book_test_headers)
 endif()
 
 # book_uses_catch(target)
@@ -376,7 +382,7 @@ function(add_exercise name)
         endif()
         add_executable(${target} ${dir}/checks/${name}.cpp)
         target_include_directories(${target} PRIVATE ${dir}/${folder})
-        target_link_libraries(${target} PRIVATE ${libraries} book_flags)
+        target_link_libraries(${target} PRIVATE book_check ${libraries} book_flags)
         book_uses_catch(${target})
         set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/exercises)
         add_test(NAME ${target} COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${target}> -D VARIANT=${variant}
