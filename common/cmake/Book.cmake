@@ -343,11 +343,18 @@ if(TARGET book_catch_main)
     target_precompile_headers(book_check REUSE_FROM book_test_headers)
 endif()
 
+# There are hundreds of them, which gold links in a third of the time. What is measured is linked as everywhere.
+find_program(BOOK_GOLD ld.gold)
+mark_as_advanced(BOOK_GOLD)
+
 # book_uses_catch(target)
 # For a test program that links everything else already.
 function(book_uses_catch target)
     target_link_libraries(${target} PRIVATE book_catch_main)
     target_compile_options(${target} PRIVATE ${test_options})
+    if(BOOK_GOLD)
+        target_link_options(${target} PRIVATE -fuse-ld=gold)
+    endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
     if("CGAL::CGAL" IN_LIST libraries)
         return()  # its flag -frounding-math wants headers of its own
