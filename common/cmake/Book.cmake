@@ -57,10 +57,15 @@ function(book_shares_headers)
 endfunction()
 
 # book_compiles_in_batches(target [file that stays alone ...])
-# Six files in one: what they include is read once, and the templates that they share are made once. No two files of a
-# room may define the same name then; that each includes what it uses is seen by house.includes_are_whole.
+# Two files of many each, for two cores: what they include is read once, and the templates that they share are made once.
+# No two files of a room may define the same name then; that each includes what it uses is seen by
+# house.includes_are_whole.
 function(book_compiles_in_batches target)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    get_target_property(sources ${target} SOURCES)
+    list(REMOVE_ITEM sources ${ARGN})
+    list(LENGTH sources count)
+    math(EXPR half "(${count} + 1) / 2")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${half})
     if(ARGN)
         set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
@@ -158,7 +163,7 @@ function(add_chapter)
     endif()
     set(register ${CMAKE_CURRENT_BINARY_DIR}/figure_register.cpp)
     add_executable(${chapter} ${dir}/main.cpp ${figures} ${register})
-    book_compiles_in_batches(${chapter} ${dir}/main.cpp ${register})
+    book_compiles_in_batches(${chapter} ${register})
     target_link_libraries(${chapter} PRIVATE ${libraries} book_flags)
     target_include_directories(${chapter} PRIVATE ${PROJECT_BINARY_DIR}/register)
     target_compile_options(${chapter} PRIVATE -Wmissing-declarations)  # finds a figure without an add_figure line
