@@ -57,10 +57,15 @@ function(book_shares_headers)
 endfunction()
 
 # book_compiles_in_batches(target [file that stays alone ...])
-# Six files in one: what they include is read once, and the templates that they share are made once. No two files of a
-# room may define the same name then; that each includes what it uses is seen by house.includes_are_whole.
+# Two files of many each, for two cores: what they include is read once, and the templates that they share are made once.
+# No two files of a room may define the same name then; that each includes what it uses is seen by
+# house.includes_are_whole.
 function(book_compiles_in_batches target)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    get_target_property(sources ${target} SOURCES)
+    list(REMOVE_ITEM sources ${ARGN})
+    list(LENGTH sources count)
+    math(EXPR half "(${count} + 1) / 2")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${half})
     if(ARGN)
         set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
@@ -158,7 +163,7 @@ function(add_chapter)
     endif()
     set(register ${CMAKE_CURRENT_BINARY_DIR}/figure_register.cpp)
     add_executable(${chapter} ${dir}/main.cpp ${figures} ${register})
-    book_compiles_in_batches(${chapter} ${dir}/main.cpp ${register})
+    book_compiles_in_batches(${chapter} ${register})
     target_link_libraries(${chapter} PRIVATE ${libraries} book_flags)
     target_include_directories(${chapter} PRIVATE ${PROJECT_BINARY_DIR}/register)
     target_compile_options(${chapter} PRIVATE -Wmissing-declarations)  # finds a figure without an add_figure line
@@ -335,13 +340,26 @@ if(TARGET book_catch_main)
     target_link_libraries(book_test_headers PRIVATE book_catch_main book_common book_flags)
     target_compile_options(book_test_headers PRIVATE ${test_options})
     target_precompile_headers(book_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/tests/catch.hpp ${BOOK_HEADERS})
+
+    # How values print in the checks of exercises.
+    add_library(book_check STATIC ${PROJECT_SOURCE_DIR}/tests/check.cpp)
+    target_link_libraries(book_check PRIVATE book_flags PUBLIC book_common Catch2::Catch2)
+    target_compile_options(book_check PRIVATE ${test_options})
+    target_precompile_headers(book_check REUSE_FROM book_test_headers)
 endif()
+
+# There are hundreds of them, which gold links in a third of the time. What is measured is linked as everywhere.
+find_program(BOOK_GOLD ld.gold)
+mark_as_advanced(BOOK_GOLD)
 
 # book_uses_catch(target)
 # For a test program that links everything else already.
 function(book_uses_catch target)
     target_link_libraries(${target} PRIVATE book_catch_main)
     target_compile_options(${target} PRIVATE ${test_options})
+    if(BOOK_GOLD)
+        target_link_options(${target} PRIVATE -fuse-ld=gold)
+    endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
     if("CGAL::CGAL" IN_LIST libraries)
         return()  # its flag -frounding-math wants headers of its own
@@ -376,7 +394,7 @@ function(add_exercise name)
         endif()
         add_executable(${target} ${dir}/checks/${name}.cpp)
         target_include_directories(${target} PRIVATE ${dir}/${folder})
-        target_link_libraries(${target} PRIVATE ${libraries} book_flags)
+        target_link_libraries(${target} PRIVATE book_check ${libraries} book_flags)
         book_uses_catch(${target})
         set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/exercises)
         add_test(NAME ${target} COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${target}> -D VARIANT=${variant}

@@ -5,9 +5,10 @@ They are there unasked (BOOK_HEADERS in common/cmake/Book.cmake), and a standard
 others, each in its own way: a file that compiles here may not compile with another compiler. A file includes a header
 by itself or by headers of the book. What readers write into exercises is theirs.
 
-The files of figures/ and measured/ are compiled in batches, in which one's includes are there for the next: of these
-files each includes, too, the headers of the book whose types and functions it uses. A function is known by a name with
-an underscore: shorter ones are words that files use for their own. Prints each fault; fails if there are any.
+The files of figures/ with main.cpp, and those of measured/, are compiled in batches, in which one's includes are there
+for the next: of these files each includes, too, the headers of the book whose types and functions it uses. A function
+is known by a name with an underscore: shorter ones are words that files use for their own. Prints each fault; fails if
+there are any.
 """
 import os
 import re
@@ -41,7 +42,7 @@ NAMES = {
     "vector": r"std::vector\b",
 }
 QUOTES_AND_COMMENTS = re.compile(r'//[^\n]*|R"re\((?:.|\n)*?\)re"|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"')
-IN_BATCHES = re.compile(r"chapters/[^/]+/(figures|measured)/[^/]+\.cpp$")
+IN_BATCHES = re.compile(r"chapters/[^/]+/((figures|measured)/[^/]+|main)\.cpp$")
 # Formatted code begins what a header declares in the first column; what is nested does not.
 DECLARED = re.compile(r"^(?:template <[^;{]*?>\s*)?(?:struct|class|enum class|enum|concept|using) ([A-Z]\w+)\b(?!\s*;)|"
                       r"^(?:template <[^;{]*?>\s*)?[A-Za-z][\w:<>,&* ]*[ &*]([a-z]\w*_\w+)\(", re.M)

@@ -5,6 +5,8 @@
 #include "common/random.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>

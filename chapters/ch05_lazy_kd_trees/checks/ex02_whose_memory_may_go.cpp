@@ -3,6 +3,8 @@
 #include "common/pcg32.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
 #include <string>
 #include <utility>

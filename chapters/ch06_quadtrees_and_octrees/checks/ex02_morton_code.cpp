@@ -1,6 +1,8 @@
 #include "common/pcg32.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -2,6 +2,8 @@
 #include "common/pcg32.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,6 +7,8 @@
 #pragma GCC poison merged reach sphere_about ritter_sphere smallest_sphere
 #include "ex01_sphere_around_both.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -3,6 +3,8 @@
 #include "common/geometry.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

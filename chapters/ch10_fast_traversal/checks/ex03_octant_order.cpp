@@ -4,6 +4,8 @@
 #include "common/random.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -2,6 +2,8 @@
 #include "common/random.hpp"
 #include "tests/check.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 #include <cmath>

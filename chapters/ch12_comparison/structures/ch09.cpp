@@ -19,7 +19,7 @@ Structure with_graphs(Structure structure) {
                   }),
              ...);
         },
-        lab_tests);
+        offered_tests);
     return structure;
 }
 

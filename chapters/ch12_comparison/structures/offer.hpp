@@ -27,24 +27,39 @@ inline constexpr std::tuple lab_tests{
 };
 // [lab_tests]
 
-/// A structure with each of these tests; `configure(config, limits)` may change what its Config has
+/// Those that are compiled. Under sanitizers the suite takes each structure through all three, and
+/// the lab need not.
+#ifdef BOOK_SANITIZED
+inline constexpr std::tuple offered_tests{std::get<0>(lab_tests)};
+#else
+inline constexpr std::tuple offered_tests = lab_tests;
+#endif
+
+/// A structure with each of these tests; `builder(test)` gives what builds it.
+template <class Builder>
+Structure offer_with(std::string_view name, std::string_view about, const Builder& builder) {
+    return {
+        .name = name,
+        .about = about,
+        .variants = std::apply(
+            [&](const auto&... tests) {
+                return std::vector{StructureVariant{tests.name, tests.about, builder(tests)}...};
+            },
+            offered_tests)};
+}
+
+/// The same of a structure by its type; `configure(config, limits)` may change what its Config has
 /// by default.
 template <template <TriangleTest> class A, class Configure>
 Structure offer(std::string_view name, std::string_view about, const Configure& configure) {
-    const auto variant = [&](const auto& test) {
+    return offer_with(name, about, [&](const auto& test) {
         using Built = A<TestOf<decltype(test)>>;
-        return StructureVariant{
-            test.name, test.about,
-            [configure](std::span<const Triangle> triangles, const BuildOptions& options) {
-                typename Built::Config config;
-                configure(config, options.limits);
-                return build_configured<Built>(triangles, options, config);
-            }};
-    };
-    return {.name = name,
-            .about = about,
-            .variants = std::apply(
-                [&](const auto&... tests) { return std::vector{variant(tests)...}; }, lab_tests)};
+        return [configure](std::span<const Triangle> triangles, const BuildOptions& options) {
+            typename Built::Config config;
+            configure(config, options.limits);
+            return build_configured<Built>(triangles, options, config);
+        };
+    });
 }
 template <template <TriangleTest> class A>
 Structure offer(std::string_view name, std::string_view about) {
