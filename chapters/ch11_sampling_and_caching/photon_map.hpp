@@ -108,11 +108,11 @@ struct PhotonDisc {
 /// Without bias where light is even: take one photon i and call d the distance of the (k - 1)-th
 /// nearest of the *others*, cut to between the smallest and the largest radius. Each case of
 /// disc_around counts i just when it is nearer than d, and then by the disc of radius d (with i
-/// in it, the k-th of all is the (k - 1)-th of the others). Photons are independent, so d does not
-/// depend on where i is. If i falls with the constant density f around the point, it counts with
-/// the chance f pi d^2, and for 1 / (pi d^2) of its power: f times its power in the mean, whatever
-/// the others do, on this surface or another one. With k photons in place of k - 1 the mean is
-/// k / (k - 1) times too high.
+/// in it, the k-th of all is the (k - 1)-th of the others). Photons are independent (those of one
+/// path nearly so): d does not depend on where i is. If i falls with the constant density f around
+/// the point, it counts with the chance f pi d^2, and for 1 / (pi d^2) of its power: f times its
+/// power in the mean, whatever the others do, on this surface or another one. With k photons in
+/// place of k - 1 the mean is k / (k - 1) times too high.
 ///
 /// Uneven light is blurred over the disc, and a disc that reaches beyond the edge of its surface
 /// makes that edge darker: a bias that falls with the disc.
