@@ -2,8 +2,12 @@
 
 #include "chapters/ch11_sampling_and_caching/lit_stage.hpp"
 #include "common/program/error.hpp"
+#include "common/scene.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace space {
@@ -27,11 +31,36 @@ LitScene lit(Scene scene, std::vector<Color> emission, std::vector<std::uint8_t>
     return lit;
 }
 
+namespace {
+
+/// @throws Error (usage) for a name that is neither here nor among the book's scenes
+void check_name(std::string_view spec) {
+    const std::string_view name = spec.substr(0, spec.find(':'));
+    std::string names;
+    for (const LitSceneRecipe& recipe : lit_scene_recipes()) {
+        if (recipe.name == name && name != "room")
+            throw usage_error(
+                fmt::format("scene {}: it has no size, '{}'", name, spec.substr(name.size() + 1)));
+        names += fmt::format("{}, ", recipe.name);
+    }
+    for (const SceneRecipe& recipe : scene_recipes()) {
+        if (recipe.name == name) return;
+        if (recipe.name != "room") names += fmt::format("{}, ", recipe.name);
+    }
+    if (spec.find_first_of("./") != std::string_view::npos) return;  // a file
+    throw usage_error(fmt::format(
+        "no scene is called '{}': give a mesh file (.obj, .off, .ply, .stl) or one of {}", name,
+        names.substr(0, names.size() - 2)));
+}
+
+}  // namespace
+
 LitScene make_lit_scene(std::string_view spec, std::uint64_t seed, bool small) {
     LitStage stage;
     const std::span<const LitMaker> makers = lit_makers();
     const auto maker =
         std::ranges::find(makers, spec, [](const LitMaker& m) { return m.recipe.name; });
+    if (maker == makers.end()) check_name(spec);
     if (maker != makers.end())
         maker->make(stage, small);
     else if (spec.substr(0, spec.find(':')) == "room")

@@ -5,12 +5,13 @@
 #include "common/scenes/shapes.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace space {
 namespace {
@@ -116,7 +117,7 @@ void make_interior(LitStage& stage, bool small) {
     stage.add_closed_room({-2, 0, -2}, {2, 2.5, 2.5}, plaster, {0.62f, 0.26f, 0.17f}, plaster,
                           wood);
     stage.add(box({-0.75, 1.8, -1.25}, {0.75, 1.86, 0.25}), teal);
-    stage.add_light(parallelogram({-0.75, 1.8625, -1.25}, {0, 0, 1.5}, {1.5, 0, 0}),
+    stage.add_light(parallelogram({-0.72, 1.8625, -1.22}, {0, 0, 1.44}, {1.44, 0, 0}),
                     Color{6.5f, 5.6f, 4.3f});
     stage.add(box({-2, 0, -1.5}, {-1.5, 1.25, 1}), teal);
     stage.add(box({-0.25, 0.68, -1.25}, {1.25, 0.72, -0.35}), wood);
@@ -126,7 +127,7 @@ void make_interior(LitStage& stage, bool small) {
     stage.add(ball({0.2, 0.92, -0.8}, 0.2, small ? 2 : 12), {0.75f, 0.6f, 0.3f});
     stage.add(turned_box({0.12, 0.16, 0.12}, {0.8, 0.88, -0.75}, 30), plaster);
     stage.scene.camera = {
-        .eye = {0.9f, 1.45f, 2.375f}, .target = {-0.2f, 1.0f, -0.8f}, .field_of_view = 58};
+        .eye = {0.9f, 1.45f, 2.375f}, .target = {-0.2f, 0.7f, -0.8f}, .field_of_view = 48};
 }
 
 /// Two rooms beside each other, open to the viewer, and a light in the left one. What leaves them
@@ -143,16 +144,13 @@ void make_wall(LitStage& stage, bool) {
     stage.scene.camera = {.eye = {0, 1.1f, 3.3f}, .target = {0, 0.7f, 0}, .field_of_view = 36};
 }
 
-/// Four panes in a frame on the wall at `x`, which see the room to the right of it.
+/// A pane on the wall at `x`, which sees the room to the right of it, and a frame with two bars.
 void add_window(LitStage& stage, double x, const Double2& z, const Double2& y,
                 const Color& radiance) {
     constexpr double bar = 0.05, half = 0.5 * bar;
     const double middle_z = 0.5 * (z.x + z.y), middle_y = 0.5 * (y.x + y.y);
-    for (const Double2& depth : {Double2{z.x, middle_z - half}, Double2{middle_z + half, z.y}})
-        for (const Double2& height : {Double2{y.x, middle_y - half}, Double2{middle_y + half, y.y}})
-            stage.add_light(parallelogram({x + 0.01, height.x, depth.x},
-                                          {0, height.y - height.x, 0}, {0, 0, depth.y - depth.x}),
-                            radiance);
+    stage.add_light(parallelogram({x + 0.01, y.x, z.x}, {0, y.y - y.x, 0}, {0, 0, z.y - z.x}),
+                    radiance);
     const auto add_bar = [&](double low_z, double high_z, double low_y, double high_y) {
         stage.add(box({x, low_y, low_z}, {x + 0.04, high_y, high_z}), {0.82f, 0.8f, 0.76f});
     };
@@ -184,11 +182,7 @@ std::span<const LitMaker> lit_makers() {
 }
 
 void make_lit_room(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small) {
-    stage.scene = make_scene(spec, seed, small);
-    stage.emission.assign(stage.scene.mesh.faces.size(), Color(0.0f));
-    stage.mirror.assign(stage.scene.mesh.faces.size(), 0);
-    stage.scene.lights.clear();
-    stage.scene.background = Color(0.0f);
+    stage.begin_with(make_scene(spec, seed, small));
     // The lamp's bulb, below its shade's inside.
     stage.add_light(downwards({-0.09, 1.9, -0.09}, 0.18, 0.18), Color{140.0f, 98.0f, 54.0f});
     add_window(stage, -2.1, {-1.45, -0.25}, {0.95, 2.15}, Color{5.4f, 6.4f, 7.8f});
@@ -197,13 +191,8 @@ void make_lit_room(LitStage& stage, std::string_view spec, std::uint64_t seed, b
 }
 
 void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small) {
-    stage.scene = make_scene(spec, seed, small);
-    Scene& scene = stage.scene;
-    scene.colors.resize(scene.mesh.faces.size(), Scene::default_color);
-    stage.emission.assign(scene.mesh.faces.size(), Color(0.0f));
-    stage.mirror.assign(scene.mesh.faces.size(), 0);
-    scene.lights.clear();
-    scene.background = Color(0.0f);
+    stage.begin_with(make_scene(spec, seed, small));
+    const Scene& scene = stage.scene;
     const Aabb box = bounds(scene.mesh);
     const Double3 low(box.min), high(box.max), middle = 0.5 * (low + high), eye(scene.camera.eye);
     const double reach = 1.25 * std::max(glm::length(eye - middle), glm::length(high - low));
@@ -214,6 +203,17 @@ void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed,
     stage.add(turned_inside_out(space::box(min, max)), Color{0.62f, 0.60f, 0.57f});
     const Double3 light{middle.x - 0.6 * reach, max.y - 0.1 * reach, middle.z + 0.55 * reach};
     stage.add_panel(light, middle, 0.3 * reach, Color{0.9f, 0.85f, 0.78f});
+}
+
+void LitStage::begin_with(Scene dull) {
+    scene = std::move(dull);
+    scene.lights.clear();
+    scene.background = Color(0.0f);
+    const std::size_t count = scene.mesh.faces.size();
+    scene.colors.resize(count, Scene::default_color);
+    for (Color& color : scene.colors) color = glm::min(color, Color(0.9f));
+    emission.assign(count, Color(0.0f));
+    mirror.assign(count, 0);
 }
 
 void LitStage::append(const TriangleMesh& mesh, const Color& reflectance, const Color& radiance,

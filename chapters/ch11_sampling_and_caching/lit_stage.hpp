@@ -17,6 +17,9 @@ struct LitStage {
     std::vector<Color> emission = {};
     std::vector<std::uint8_t> mirror = {};
 
+    /// A scene that does not shine: without its point lights, before a black sky. Nothing is
+    /// whiter than 0.9, as nothing is.
+    void begin_with(Scene dull);
     void add(const TriangleMesh& mesh, const Color& reflectance);
     void add_mirror(const TriangleMesh& mesh, const Color& reflectance);
     /// Its front has this radiance; it reflects nothing.

@@ -5,12 +5,16 @@
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
+#define STBI_ONLY_HDR
 #define STBI_NO_STDIO
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -105,6 +109,45 @@ TEST_CASE("pictures side by side keep their pixels, with white between them") {
 TEST_CASE("a picture that cannot be written is one clear error") {
     CHECK_THROWS_AS(write_png("/proc/none/picture.png", Image(2, 2)), Error);
     CHECK_THROWS_AS(write_png("/dev/full", Image(2, 2)), Error);
+}
+
+TEST_CASE("a Radiance file keeps light of any brightness to a part in 128 of its largest channel") {
+    Image image(70, 3);  // as wide as what is run-length encoded
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 70; ++x) {
+            const float scale = std::ldexp(1.0f, 2 * (x - 35));
+            image.at(x, y) = scale * glm::vec3(1.0f, 0.3f * float(y), float(x) / 70.0f);
+        }
+    const std::string bytes = hdr_bytes(image);
+    CHECK(bytes.starts_with("#?RADIANCE\n"));
+    int width = 0, height = 0, channels = 0;
+    float* const read = stbi_loadf_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                                               int(bytes.size()), &width, &height, &channels, 3);
+    REQUIRE(read);
+    REQUIRE(width == 70);
+    REQUIRE(height == 3);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 70; ++x) {
+            const glm::vec3& kept = image.at(x, y);
+            const float largest = std::max({kept.x, kept.y, kept.z});
+            for (int channel = 0; channel < 3; ++channel) {
+                CAPTURE(x, y, channel);
+                CHECK(std::abs(read[(y * 70 + x) * 3 + channel] - kept[channel]) <=
+                      largest / 128.0f);
+            }
+        }
+    stbi_image_free(read);
+}
+
+TEST_CASE("a Radiance file has no NaN, nothing negative and nothing infinite") {
+    Image image(1, 1);
+    const auto bytes = [&](const glm::vec3& color) {
+        image.at(0, 0) = color;
+        return hdr_bytes(image);
+    };
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    CHECK(bytes({std::numeric_limits<float>::quiet_NaN(), -1.0f, -inf}) == bytes({0, 0, 0}));
+    CHECK(bytes({inf, 3e38f, 1e38f}) == bytes({1e38f, 1e38f, 1e38f}));
 }
 
 }  // namespace space

@@ -109,4 +109,15 @@ TEST_CASE("progress of a short job writes nothing, and steps may come from many 
     CHECK(text.empty());
 }
 
+TEST_CASE("times left are said in the two largest units, rounded up") {
+    CHECK(duration_text(0.0) == "0 s");
+    CHECK(duration_text(0.2) == "1 s");
+    CHECK(duration_text(59.5) == "1 min 0 s");
+    CHECK(duration_text(130.0) == "2 min 10 s");
+    CHECK(duration_text(3600.0) == "1 h 0 min");
+    CHECK(duration_text(11'100.0) == "3 h 5 min");
+    CHECK(duration_text(-1.0) == "0 s");
+    CHECK(duration_text(std::numeric_limits<double>::infinity()).ends_with(" h 20 min"));
+}
+
 }  // namespace space
