@@ -125,10 +125,11 @@ TEST_CASE("a light that is seen whole by its solid angle has always the same den
     const double pdf =
         1.0 / SphericalTriangle(table.lights()[0].triangle, Double3(0.0)).solid_angle;
     Pcg32 random(4);
-    for (int i = 0; i < 100; ++i)
-        CHECK(sample_light_solid_angle(table, Double3(0.0), random.uniform_double(),
-                                       random_pair(random))
-                  .pdf == pdf);
+    for (int i = 0; i < 100; ++i) {
+        const double choice = random.uniform_double();
+        const Double2 u = random_pair(random);
+        CHECK(sample_light_solid_angle(table, Double3(0.0), choice, u).pdf == pdf);
+    }
 }
 
 TEST_CASE("a ray that meets a light has the density with which it would have been chosen") {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +20,9 @@
 #include <vector>
 
 namespace space {
+namespace test {
+extern std::atomic<std::ptrdiff_t> allocations_left;  // tests/ch05/allocations.cpp
+}
 namespace {
 
 using Tree = Bvh<BinnedBuilder>;
@@ -256,6 +260,23 @@ TEST_CASE("a light's back is dark, and what leaves the scene finds the sky") {
     CHECK(lit.path({.origin = {0, 1, 0}, .direction = {0, -1, 0}}, sampler) == Double3(0.0));
     CHECK(lit.path({.origin = {0, 1, 0}, .direction = {0, 1, 0}}, sampler) ==
           Double3(0.25, 0.5, 0.75));
+}
+
+TEST_CASE("no path takes memory from the heap") {
+    const Lit lit{make_lit_scene("box", 1, true)};
+    const Ray ray = PixelGrid(lit.scene.scene.camera, 1, 1).ray(0, 0);
+    for (const SamplePattern pattern : {SamplePattern::stratified, SamplePattern::sobol})
+        for (const Lighting lighting : every_lighting) {
+            Sampler sampler(pattern, 64, 3);
+            double sum = 0.0;
+            test::allocations_left = 0;  // the next one throws
+            for (std::uint32_t i = 0; i < 64; ++i) {
+                sampler.start(0, i);
+                sum += lit.path(ray, sampler, {.lighting = lighting}).x;
+            }
+            test::allocations_left = -1;
+            CHECK(sum > 0.0);
+        }
 }
 
 TEST_CASE("a picture of paths has the same bytes for any number of threads") {
