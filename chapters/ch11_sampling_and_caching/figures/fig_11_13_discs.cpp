@@ -43,7 +43,7 @@ Svg fig_11_13(const Options& options) {
     const PhotonTrace trace = trace_photons(wall.tree, wall.lit, wall.lights,
                                             {.count = 4'000, .threads = options.threads});
     const PhotonMap map = PhotonMap::build(trace.photons);
-    Svg svg("Photons on a floor, and the discs in which a point asks for them", 676, 640);
+    Svg svg("Photons on a floor, and the discs in which a point asks for them", 676, 684);
     svg.rect(on_floor({-1.5, 0, -1}), at(floor_scale * 1.5, floor_scale * 1.75),
              {.stroke = Ink::quiet});
     svg.line(on_floor({0, 0, -1}), on_floor({0.42, 0, -1}), {.stroke = Ink::quiet});
