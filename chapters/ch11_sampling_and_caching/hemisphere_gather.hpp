@@ -27,7 +27,7 @@ namespace space {
 /// A hemisphere in `rings` x `sectors` cells, each of which sends as much light to the point below
 /// as any other where all are equally bright: pi / (rings sectors). Each gets one ray.
 struct HemisphereGrid {
-    int rings = 20, sectors = 60;
+    int rings = 24, sectors = 72;
 
     int cells() const { return rings * sectors; }
     /// Sine of the angle between the pole and the inner edge of a ring; 1 at the horizon, the inner
@@ -96,6 +96,7 @@ inline IrradianceRecord record_of(const HemisphereGrid& grid, std::span<const Se
             const SeenLight& cell = cell_at(ring, sector);
             record.irradiance += cell.radiance * (std::numbers::pi / grid.cells());
             closeness += 1.0 / cell.distance;
+            record.nearest = std::min(record.nearest, cell.distance);
             record.rotation_gradient += glm::outerProduct(
                 cell.radiance,
                 across * (chord * (grid.square_to(ring + 1) - grid.square_to(ring))));

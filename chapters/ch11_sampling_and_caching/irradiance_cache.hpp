@@ -26,9 +26,9 @@
 
 namespace space {
 
-/// Finds records by where they are valid: within `accuracy` times their radius. Those whose reach
-/// lies between two powers of two share an octree of points, which is asked for all within the
-/// larger power.
+/// Finds records by where they are valid: within a reach of `accuracy` times their radius, and no
+/// farther than the nearest surface that they know of. Those whose reach lies between two powers of
+/// two share an octree of points, which is asked for all within the larger power.
 class IrradianceCache {
   public:
     /// A record is used where its split-sphere error is below `accuracy`.
@@ -38,16 +38,19 @@ class IrradianceCache {
     /// In the order in which they were added.
     std::span<const IrradianceRecord> records() const { return records_; }
 
-    /// @throws std::invalid_argument for a record whose position is not finite, or whose radius is
-    /// not positive and finite (limit_radius makes it so)
+    /// Radii shrink to nearest / accuracy where they are larger.
+    /// @throws std::invalid_argument for a record whose position is not finite, whose radius is not
+    /// finite (limit_radius makes it so), or whose reach is not positive
     void add(std::span<const IrradianceRecord> records) {
         for (const IrradianceRecord& record : records)
             if (!is_finite<3>(Point3(record.position)) || !std::isfinite(record.radius) ||
-                !(record.radius > 0.0))
+                !(record.radius > 0.0) || !(record.nearest > 0.0))
                 throw std::invalid_argument(
-                    "irradiance cache: a record's position or radius is not "
-                    "finite, or its radius not positive");
-        records_.insert(records_.end(), records.begin(), records.end());
+                    "irradiance cache: a record that is valid nowhere or everywhere");
+        for (IrradianceRecord record : records) {
+            record.radius = std::min(record.radius, record.nearest / accuracy_);
+            records_.push_back(record);
+        }
         sort_into_classes();
     }
 
@@ -86,7 +89,7 @@ class IrradianceCache {
     template <class Visit>
     void for_each_valid(const Double3& x, const Double3& n, const Visit& visit) const {
         for (const RadiusClass& all : classes_)
-            for_each_within(all, x, all.reach(), [&](std::uint32_t index) {
+            for_each_within(all, x, all.reach, [&](std::uint32_t index) {
                 const IrradianceRecord& record = records_[index];
                 const double error = split_sphere_error(record, x, n);
                 if (error < accuracy_ && !lies_in_front(record, x, n)) visit(index, error);
@@ -94,27 +97,29 @@ class IrradianceCache {
     }
 
     // [neighbour_clamp]
-    /// What a record sees at a distance R, its neighbour at a distance d sees no farther than R +
-    /// d: lowers each radius to that of any neighbour and the way to it (Krivanek, Bouatouch,
-    /// Pattanaik and Zara 2006, "Making Radiance and Irradiance Caching Practical", section 4). So
-    /// a few rays that meet a thin wall near one record keep others from reaching through it. Ways
-    /// along several records are never shorter, so once for each is enough. The same for any number
-    /// of threads.
+    /// A surface that one record has near it is no farther from another than the way between the
+    /// two and that: lowers what each knows of the nearest by what its neighbours know (Krivanek,
+    /// Bouatouch, Pattanaik and Zara 2006, "Making Radiance and Irradiance Caching Practical",
+    /// section 4), and so its reach. A thin wall that few rays of one record meet, and none of
+    /// another's, lets no light through. Ways by way of other records are no shorter, so once for
+    /// each is enough. The same for any number of threads.
     void clamp_to_neighbours(unsigned threads) {
-        std::vector<double> radii(records_.size());
-        parallel_for(radii.size(), threads, 64, [&](std::size_t i) {
+        std::vector<double> nearest(records_.size());
+        parallel_for(nearest.size(), threads, 64, [&](std::size_t i) {
             const IrradianceRecord& record = records_[i];
-            radii[i] = record.radius;
-            for (const RadiusClass& all : classes_)
-                for_each_within(all, record.position, record.radius - 0.5 * all.reach() / accuracy_,
-                                [&](std::uint32_t j) {
-                                    const IrradianceRecord& other = records_[j];
-                                    const double way =
-                                        glm::length(other.position - record.position);
-                                    radii[i] = std::min(radii[i], other.radius + way);
-                                });
+            nearest[i] = record.nearest;
+            for (const RadiusClass& all : classes_)  // whose nearest is half of the reach, or more
+                for_each_within(
+                    all, record.position, record.nearest - 0.5 * all.reach, [&](std::uint32_t j) {
+                        const IrradianceRecord& other = records_[j];
+                        const double way = glm::length(other.position - record.position);
+                        nearest[i] = std::min(nearest[i], other.nearest + way);
+                    });
         });
-        for (std::size_t i = 0; i < radii.size(); ++i) records_[i].radius = radii[i];
+        for (std::size_t i = 0; i < nearest.size(); ++i) {
+            records_[i].nearest = nearest[i];
+            records_[i].radius = std::min(records_[i].radius, nearest[i] / accuracy_);
+        }
         sort_into_classes();
     }
     // [neighbour_clamp]
@@ -122,11 +127,9 @@ class IrradianceCache {
   private:
     /// Records that reach less far than a power of two, but half as far or farther.
     struct RadiusClass {
-        int exponent;                        ///< of the farthest reach, a power of two
+        double reach;                        ///< a power of two
         std::vector<std::uint32_t> indices;  ///< of its records
         OrthtreePoints<3> tree;              ///< of these, in their order
-
-        double reach() const { return std::ldexp(1.0, exponent); }
     };
     /// Calls visit(index) for what an octree's search comes to.
     template <class Visit>
@@ -159,7 +162,7 @@ class IrradianceCache {
         for (std::uint32_t i = 0; i < records_.size(); ++i) {
             int exponent;
             std::frexp(accuracy_ * records_[i].radius, &exponent);
-            class_of(exponent).indices.push_back(i);
+            class_of(std::ldexp(1.0, exponent)).indices.push_back(i);
         }
         std::vector<Point3> points;
         for (RadiusClass& all : classes_) {
@@ -168,10 +171,10 @@ class IrradianceCache {
             all.tree = OrthtreePoints<3>::build(std::span<const Point3>(points));
         }
     }
-    RadiusClass& class_of(int exponent) {
-        const auto at = std::ranges::lower_bound(classes_, exponent, {}, &RadiusClass::exponent);
-        if (at != classes_.end() && at->exponent == exponent) return *at;
-        return *classes_.insert(at, {.exponent = exponent, .indices = {}, .tree = {}});
+    RadiusClass& class_of(double reach) {
+        const auto at = std::ranges::lower_bound(classes_, reach, {}, &RadiusClass::reach);
+        if (at != classes_.end() && at->reach == reach) return *at;
+        return *classes_.insert(at, {.reach = reach, .indices = {}, .tree = {}});
     }
 
     double accuracy_;

@@ -24,6 +24,7 @@ struct IrradianceRecord {
     Double3 position{0.0}, normal{0.0, 0.0, 1.0};
     Double3 irradiance{0.0};
     double radius = 0.0;                   ///< mean distance of what is seen, 0 to infinity
+    double nearest = infinity;             ///< distance of the nearest surface in front, if known
     glm::dmat3 translation_gradient{0.0};  ///< by a step of the point, per unit of length
     glm::dmat3 rotation_gradient{0.0};     ///< by a turn of the normal, per radian about an axis
 };

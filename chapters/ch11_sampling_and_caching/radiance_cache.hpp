@@ -39,7 +39,7 @@ struct RadianceCacheConfig {
     double accuracy = 0.3;  ///< the largest split-sphere error of a record that is used
     HemisphereGrid grid = {};
     /// Bounds of the records' radii, in parts of the diagonal of the scene's box.
-    double smallest_radius = 0.01, largest_radius = 0.5;
+    double smallest_radius = 0.03, largest_radius = 0.5;
     bool gradients = true;           ///< of first order between records; else each is constant
     bool neighbour_clamping = true;  ///< see IrradianceCache::clamp_to_neighbours
     /// Whether a gather's rays end where a record of an earlier round is valid. Else each goes on
@@ -161,6 +161,8 @@ IrradianceRecord gather_record(const A& accelerator, const LitScene& lit, const 
                           });
     if (!config.gradients) record.translation_gradient = record.rotation_gradient = glm::dmat3(0.0);
     limit_radius(record, limits);
+    const double least = config.accuracy * limits.smallest;  // what a record reaches in any case
+    record.nearest = config.neighbour_clamping ? std::max(record.nearest, least) : double{infinity};
     return record;
 }
 
@@ -184,7 +186,9 @@ IrradianceCache fill_cache(const A& accelerator, const LitScene& lit, const Ligh
             Sampler sampler(SamplePattern::independent, 1, key_for(config.seed, 1));
             sampler.start(asked[i], 0);
             const auto seen = seen_through_mirrors(accelerator, lit, ray, sampler).surface;
-            if (seen && !cache.covers(seen->position, seen->normal)) points[i] = seen;
+            const bool reflects =
+                seen && lit.reflectance(seen->triangle) != Double3(0.0);  // lights do not
+            if (reflects && !cache.covers(seen->position, seen->normal)) points[i] = seen;
         });
         std::vector<std::size_t> wanted;
         for (std::size_t i = 0; i < points.size(); ++i)

@@ -95,7 +95,10 @@ TEST_CASE(
             const double t = distance / glm::dot(n, direction);
             return SeenLight{Double3(1.0), t >= 0.0 ? t : infinity};
         };
-        return gather(look, grid).radius;
+        const IrradianceRecord record = gather(look, grid);
+        if (record.radius > 0.0 && record.radius < infinity)
+            CHECK(record.nearest == Approx(distance).epsilon(0.01));
+        return record.radius;
     };
     CHECK(mean_distance({0, 0, 1}, 1.0) == Approx(1.5).epsilon(1e-3));
     CHECK(mean_distance({1, 0, 0}, 1.0) == Approx(1.5 * std::numbers::pi).epsilon(1e-3));
