@@ -135,13 +135,13 @@ TEST_CASE("records far from the origin are found to the end of their reach") {
     for (int i = 0; i < 1'000; ++i) {
         const Double3 away = 1e4 * random_direction(random);
         IrradianceRecord record{.position = away, .normal = up, .irradiance = Double3(1.0)};
-        record.radius = 0.01;
+        record.radius = 0.9999 * 0x1p-6;  // just below what their octree is asked for
         IrradianceCache cache(0.5);
         cache.add(std::span(&record, 1));
         const double angle = 2.0 * std::numbers::pi * random.uniform_double();
         const Double3 way{std::cos(angle), std::sin(angle), 0.0};
-        REQUIRE(cache.covers(away + 0.00499 * way, up));
-        REQUIRE_FALSE(cache.covers(away + 0.00501 * way, up));
+        REQUIRE(cache.covers(away + 0.499 * record.radius * way, up));
+        REQUIRE_FALSE(cache.covers(away + 0.501 * record.radius * way, up));
     }
 }
 
