@@ -71,19 +71,17 @@ Double3 path_radiance(const A& accelerator, const LitScene& lit, const LightTabl
             const double weight = pdf ? found_light_weight(lighting, table, ray, *hit, *pdf) : 1.0;
             radiance += weight * throughput * emitted;
         }
-        if (bounce == config.most_bounces) return radiance;
+        const Double3 reflectance = lit.reflectance(surface.triangle);
+        if (bounce == config.most_bounces || reflectance == Double3(0.0)) return radiance;
 
-        if (samples_lights(lighting) && !lit.is_mirror(surface.triangle)) {
-            const Double3 reflectance = lit.reflectance(surface.triangle);
+        if (samples_lights(lighting) && !lit.is_mirror(surface.triangle))
             radiance += throughput * reflectance / std::numbers::pi *
                         irradiance_from_lights(accelerator, table, surface, sampler, lighting);
-        }
         const Reflection next = reflected(lit, surface, ray, sampler, lighting);
         ray = next.ray;
         pdf = next.pdf;
         throughput *= next.factor;
 
-        if (throughput == Double3(0.0)) return radiance;
         if (bounce + 1 < config.roulette_from) continue;
         const double goes_on = survival(throughput);
         if (sampler.next() >= goes_on) return radiance;
