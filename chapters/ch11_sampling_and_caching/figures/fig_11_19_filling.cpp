@@ -47,9 +47,10 @@ Svg fig_11_19(const Options& options) {
     box.lit.scene.camera = {
         .eye = {0, 1.9f, 0.25f}, .target = {0, 0, 0.25f}, .up = {0, 0, -1}, .field_of_view = 68};
     RoundWatcher watcher;
-    const IrradianceCache cache =
-        fill_cache(box.tree, box.lit, box.lights, box.pixels(),
-                   RadianceCacheConfig{.accuracy = filling_accuracy, .coarsest = 16}, 1, watcher);
+    const IrradianceCache cache = fill_cache(
+        box.tree, box.lit, box.lights, box.pixels(),
+        RadianceCacheConfig{.accuracy = filling_accuracy, .grid = few_rays, .coarsest = 16}, 1,
+        watcher);
     Svg svg("Records of a cache on a floor, round by round", 668, 640);
     svg.rect(from_above({-1, 0, -1}), at(filling_scale * 2, filling_scale * 2.5));
     for (std::size_t i = 12; i < box.lit.triangles.size(); ++i) {  // after the room's six sides
