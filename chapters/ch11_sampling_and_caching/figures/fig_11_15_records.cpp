@@ -8,7 +8,7 @@ namespace space::ch11 {
 
 Image fig_11_15(const Options& options) {
     const LitPicture interior("interior", 360, 276, options.threads);
-    const IrradianceCache cache = interior.cache({.accuracy = 0.4, .grid = few_rays});
+    const IrradianceCache cache = interior.cache({.accuracy = 0.4});
     const Film film = interior.cached(4, cache);
     Image dotted = film.image(0.4);
     for (const IrradianceRecord& record : cache.records())

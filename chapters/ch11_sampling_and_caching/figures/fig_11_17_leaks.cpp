@@ -8,8 +8,8 @@ namespace space::ch11 {
 Image fig_11_17(const Options& options) {
     const LitPicture wall("wall", 320, 246, options.threads);
     const auto picture = [&](bool clamping) {
-        const IrradianceCache cache = wall.cache(
-            {.accuracy = 0.4, .grid = few_rays, .neighbour_clamping = clamping, .coarsest = 32});
+        const IrradianceCache cache =
+            wall.cache({.accuracy = 0.4, .neighbour_clamping = clamping, .coarsest = 32});
         return wall.cached(4, cache).image();
     };
     return side_by_side({picture(false), picture(true)});

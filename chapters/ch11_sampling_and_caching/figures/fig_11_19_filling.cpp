@@ -49,8 +49,9 @@ Svg fig_11_19(const Options& options) {
     RoundWatcher watcher;
     const IrradianceCache cache = fill_cache(
         box.tree, box.lit, box.lights, box.pixels(),
-        RadianceCacheConfig{.accuracy = filling_accuracy, .grid = few_rays, .coarsest = 16}, 1,
-        watcher);
+        RadianceCacheConfig{
+            .accuracy = filling_accuracy, .grid = {.rings = 12, .sectors = 36}, .coarsest = 16},
+        1, watcher);
     Svg svg("Records of a cache on a floor, round by round", 668, 640);
     svg.rect(from_above({-1, 0, -1}), at(filling_scale * 2, filling_scale * 2.5));
     for (std::size_t i = 12; i < box.lit.triangles.size(); ++i) {  // after the room's six sides

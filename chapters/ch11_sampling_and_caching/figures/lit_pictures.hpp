@@ -5,7 +5,6 @@
 
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch11_sampling_and_caching/film.hpp"
-#include "chapters/ch11_sampling_and_caching/hemisphere_gather.hpp"
 #include "chapters/ch11_sampling_and_caching/irradiance.hpp"
 #include "chapters/ch11_sampling_and_caching/irradiance_cache.hpp"
 #include "chapters/ch11_sampling_and_caching/light_sampling.hpp"
@@ -20,10 +19,6 @@
 #include <vector>
 
 namespace space::ch11 {
-
-/// The rays of a record in pictures that show where records are: fewer than in a picture that is to
-/// be looked at.
-inline constexpr HemisphereGrid few_rays{.rings = 12, .sectors = 36};
 
 /// A scene that is ready for its pictures, all of one size.
 struct LitPicture {
