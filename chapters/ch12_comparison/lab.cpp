@@ -163,16 +163,6 @@ std::vector<Choice> choose(std::span<const Structure> structures, const LabOptio
     return chosen;
 }
 
-int list_structures(std::span<const Structure> structures) {
-    Table table({"structure", "from", "default", "what it is"});
-    for (const Structure& structure : structures)
-        table.row({std::string(structure.name), std::string(structure.home),
-                   structure.by_default ? "yes" : "", std::string(structure.about)});
-    table.print();
-    if (!has_peers(structures)) fmt::print("\npeers   left out: {}\n", no_peers);
-    return static_cast<int>(ExitCode::ok);
-}
-
 int list_triangle_tests(std::span<const Structure> structures) {
     Table table({"triangle test", "what it is"});
     for (const StructureVariant& variant : structures.front().variants)
@@ -304,6 +294,16 @@ void write_to(std::FILE* out, const std::string& text) {
 }
 
 }  // namespace
+
+int list_structures(std::span<const Structure> structures) {
+    Table table({"structure", "from", "default", "what it is"});
+    for (const Structure& structure : structures)
+        table.row({std::string(structure.name), std::string(structure.home),
+                   structure.by_default ? "yes" : "", std::string(structure.about)});
+    table.print();
+    if (!has_peers(structures)) fmt::print("\npeers   left out: {}\n", no_peers);
+    return static_cast<int>(ExitCode::ok);
+}
 
 int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     const LabOptions options = parse_lab_options(argc, argv);

@@ -14,4 +14,7 @@ namespace space {
 /// @throws Error
 int run_lab(std::span<const Structure> structures, int argc, char** argv);
 
+/// Prints the table of --structure list. @return exit code 0
+int list_structures(std::span<const Structure> structures);
+
 }  // namespace space

@@ -1,8 +1,8 @@
 #include "chapters/ch12_comparison/lab_options.hpp"
 
 #include "chapters/ch09_instancing_and_motion/instance_file.hpp"
+#include "chapters/ch12_comparison/output_check.hpp"
 #include "common/program/error.hpp"
-#include "common/program/file.hpp"
 #include "common/scene.hpp"
 
 #include <CLI/CLI.hpp>
@@ -93,21 +93,6 @@ Camera parse_camera(const std::string& text) {
     if (camera.eye.x == camera.target.x && camera.eye.z == camera.target.z)
         camera.up = {0.0f, 0.0f, -1.0f};  // looking straight up or down
     return camera;
-}
-
-/// The same file, or the same place where there is none yet.
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code error;
-    return std::filesystem::equivalent(a, b, error) ||
-           std::filesystem::weakly_canonical(a, error) ==
-               std::filesystem::weakly_canonical(b, error);
-}
-
-/// Does what is printed go to this file?
-bool is_redirected_to(const char* stream, const std::filesystem::path& file) {
-    std::error_code error;
-    return std::filesystem::is_regular_file(file, error) &&
-           std::filesystem::equivalent(stream, file, error);
 }
 
 void add_file_options(CLI::App& app, LabOptions& options) {
@@ -219,33 +204,14 @@ void check_outputs(const LabOptions& options) {
         inputs = meshes_of_instances(options.instances);
         inputs.insert(inputs.end(), {options.instances, options.rays});
     }
-    constexpr const char* streams[] = {"/dev/stdout", "/dev/stderr"};
-    for (const std::filesystem::path& input : inputs)
-        for (const char* stream : streams)
-            if (is_redirected_to(stream, input))
-                throw usage_error(fmt::format(
-                    "{}: this is an input, and what is printed goes there", input.string()));
+    check_inputs_unprinted(inputs);
     if (options.hits == "-") throw usage_error("--hits -: it needs a file");
-    if (!options.hits.empty() && !options.json.empty() && same_file(options.hits, options.json))
+    if (!options.hits.empty() && !options.json.empty() && is_same_file(options.hits, options.json))
         throw usage_error(
             fmt::format("--hits and --json are the same file, {}", options.json.string()));
-    const auto check = [&](std::string_view option, const std::filesystem::path& file) {
-        for (const std::filesystem::path& input : inputs)
-            if (!input.empty() && same_file(file, input))
-                throw usage_error(fmt::format("{} {}: this is an input", option, file.string()));
-        for (const char* stream : streams)
-            if (is_redirected_to(stream, file))
-                throw usage_error(
-                    fmt::format("{} {}: what is printed goes there, too", option, file.string()));
-        std::error_code error;
-        const std::filesystem::path directory = file.parent_path();
-        if (!directory.empty() && !std::filesystem::exists(directory, error))
-            throw output_error(fmt::format("cannot write {}: there is no directory {}",
-                                           file.string(), directory.string()));
-        check_writable(file);
-    };
-    if (!options.hits.empty()) check("--hits", options.hits);
-    if (!options.json.empty() && !options.json_to_stdout()) check("--json", options.json);
+    if (!options.hits.empty()) check_output("--hits", options.hits, inputs);
+    if (!options.json.empty() && !options.json_to_stdout())
+        check_output("--json", options.json, inputs);
 }
 
 }  // namespace space

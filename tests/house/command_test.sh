@@ -28,6 +28,8 @@ ends 0 'book run' --help
 ends 0 'book run'
 for command in run try test exercise figures bench docs print scenes doctor; do ends 0 "^  ./book $command " $command --help; done
 ends 0 '^  --structure ' lab --help
+ends 0 '^  --method ' render --help
+ends 0 '^  ./book render ' help render
 ends 0 '^Splitting Space [0-9]' --version
 ends 0 '^  ./book figures ' help figures
 ends 2 'help: there is no command nonsense' help nonsense
