@@ -23,9 +23,10 @@ bool is_redirected_to(const char* stream, const std::filesystem::path& file) {
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code error;
-    return std::filesystem::equivalent(a, b, error) ||
-           std::filesystem::weakly_canonical(a, error) ==
-               std::filesystem::weakly_canonical(b, error);
+    const auto place = [&](const std::filesystem::path& file) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+    };
+    return std::filesystem::equivalent(a, b, error) || place(a) == place(b);
 }
 
 void check_inputs_unprinted(std::span<const std::filesystem::path> inputs) {

@@ -635,6 +635,11 @@ TEST_CASE("no output is an input or another output") {
         for (const char* file : {"row.ply", "rays", "link", "twin", "./row.ply"})
             refused(naive.with(output, bench / file), "this is an input");
     refused(naive.with("--hits", bench / "new").with("--json", bench / "./new"), "the same file");
+    const Command there = Command{.words = {"bash", "-c"}}
+                              .with_word("cd \"$1\" && exec \"${@:2}\"")
+                              .with_word("bash")
+                              .with(bench / ".");
+    refused(there.with(naive).with("--hits new --json ./new"), "the same file");
     const Command scene = lab.with("--structure naive --size 4x3 --repeat 1");
     refused(scene.with("--scene", bench / "row.ply").with("--json", bench / "row.ply"), "input");
     refused(scene.with_word("--scene")
