@@ -39,11 +39,11 @@ void measure_lightings_of(const std::string& name, const Options& options,
     const LitScene lit = make_lit_scene(name, options.seed, options.small);
     const LightTable lights(lit);
     const auto tree = FastBvh<>::build(lit.triangles);
-    const int width = options.small ? 12 : options.quick ? 24 : 40;
+    const int width = options.small ? 12 : options.quick ? 24 : 32;
     const std::vector<Ray> rays =
         rays_to_diffuse(tree, lit, {lit.scene.camera, width, width * 3 / 4});
     constexpr std::uint32_t rounds = 4;
-    const std::uint32_t a_round = options.small ? 4 : options.quick ? 64 : 512;
+    const std::uint32_t a_round = options.small ? 4 : options.quick ? 64 : 256;
     std::array<std::vector<RunningMean>, std::size(all_lightings)> means;
     std::array<std::vector<double>, std::size(all_lightings)> times;
     for (auto& of : means) of.resize(rays.size());

@@ -2,6 +2,7 @@
 /// What chapter 11 counts and times of ways to sample, as plain values.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
