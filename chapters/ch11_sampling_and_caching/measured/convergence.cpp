@@ -18,13 +18,15 @@
 namespace space::ch11 {
 namespace {
 
+/// Two of a setting tell its bias.
+constexpr int pictures_of_each = 2;
+
 /// Where pictures are made, and what they are held against.
 struct Judge {
     const TracedScene& scene;
     const References& references;
     Convergence& found;
     unsigned threads;
-    int pictures;  ///< of each setting
 
     /// Makes pictures by picture(seed, work), which counts its work, and adds what they show.
     template <class Picture>
@@ -32,7 +34,7 @@ struct Judge {
         ErrorPoint point{.method = std::move(method), .setting = std::move(setting)};
         std::vector<Luminances> made;
         std::vector<double> seconds;
-        for (int i = 0; i < pictures; ++i) {
+        for (int i = 0; i < pictures_of_each; ++i) {
             Stopwatch stopwatch;
             made.push_back(picture(static_cast<std::uint64_t>(i) + 1, point.work));
             seconds.push_back(stopwatch.lap().count() / 1e3);
@@ -53,9 +55,9 @@ struct Judge {
     }
 };
 
-void add_paths(const Judge& judge, std::uint32_t most_samples) {
+void add_paths(const Judge& judge, std::uint32_t fewest_samples, std::uint32_t most_samples) {
     const TracedScene& s = judge.scene;
-    for (std::uint32_t samples = 1; samples <= most_samples; samples *= 4)
+    for (std::uint32_t samples = fewest_samples; samples <= most_samples; samples *= 4)
         judge.add("paths", fmt::format("{} a pixel", samples),
                   [&](std::uint64_t seed, std::uint64_t& work) {
                       work = samples;
@@ -97,7 +99,7 @@ void add_photons(const Judge& judge, const std::string& method, const std::strin
 void add_cache(const Judge& judge, const std::string& method, const RadianceCacheConfig& config,
                std::uint32_t samples) {
     const TracedScene& s = judge.scene;
-    judge.add(method, fmt::format("accuracy {}", config.accuracy),
+    judge.add(method, fmt::format("{}, {} a pixel", config.accuracy, samples),
               [&](std::uint64_t seed, std::uint64_t& work) {
                   RadianceCacheConfig seeded = config;
                   seeded.seed = seed;
@@ -112,6 +114,11 @@ void add_cache(const Judge& judge, const std::string& method, const RadianceCach
               });
 }
 
+/// How finely a cache is filled, and how many points of lights are asked for each pixel beside it.
+struct CacheSetting {
+    double accuracy;
+    std::uint32_t samples;
+};
 /// How much of everything, by how much a run may take.
 struct ConvergenceSizes {
     int caustic_width, room_width;
@@ -120,10 +127,10 @@ struct ConvergenceSizes {
     std::uint32_t caustic_samples, room_samples;  ///< the most for paths
     std::vector<std::uint32_t> photons;
     std::uint32_t indirect_photons;  ///< beside those of a caustic
-    std::vector<double> accuracies;
+    std::vector<CacheSetting> caches;
     std::vector<int> gather_rays;
+    std::uint32_t samples;  ///< a pixel, where photons are asked
     HemisphereGrid grid = {};
-    int pictures = 2;
 };
 ConvergenceSizes sizes_of(const Options& options) {
     switch (options.amount()) {
@@ -133,30 +140,32 @@ ConvergenceSizes sizes_of(const Options& options) {
                     .reference_samples = 8,
                     .reference_photons = 10'000,
                     .batches = 1,
-                    .caustic_samples = 4,
+                    .caustic_samples = 16,
                     .room_samples = 4,
                     .photons = {1'000, 3'000},
                     .indirect_photons = 1'000,
-                    .accuracies = {0.8},
-                    .gather_rays = {4},
+                    .caches = {{0.8, 4}},
+                    .gather_rays = {1},
+                    .samples = 1,
                     .grid = {4, 12}};
         case Amount::quick:
-            return {.caustic_width = 100,
+            return {.caustic_width = 80,
                     .room_width = 64,
                     .reference_samples = 64,
                     .reference_photons = 500'000,
                     .batches = 2,
-                    .caustic_samples = 16,
+                    .caustic_samples = 64,
                     .room_samples = 16,
                     .photons = {10'000, 100'000},
                     .indirect_photons = 10'000,
-                    .accuracies = {0.8, 0.4},
-                    .gather_rays = {4}};
+                    .caches = {{0.8, 16}, {0.4, 64}},
+                    .gather_rays = {1},
+                    .samples = 4};
         case Amount::full:
             break;
     }
-    return {.caustic_width = 240,
-            .room_width = 200,
+    return {.caustic_width = 160,
+            .room_width = 160,
             .reference_samples = 512,
             .reference_photons = 1'000'000,
             .batches = 12,
@@ -164,8 +173,9 @@ ConvergenceSizes sizes_of(const Options& options) {
             .room_samples = 64,
             .photons = {10'000, 30'000, 100'000, 300'000, 1'000'000, 3'000'000},
             .indirect_photons = 20'000,
-            .accuracies = {0.8, 0.4, 0.2, 0.1},
-            .gather_rays = {4, 16}};
+            .caches = {{0.8, 64}, {0.4, 256}, {0.3, 512}, {0.2, 1'024}},
+            .gather_rays = {1, 4},
+            .samples = 16};
 }
 
 TracedScene traced(const std::string& name, const Options& options, int width) {
@@ -189,19 +199,23 @@ Convergence measure_caustic(const Options& options) {
         caustic_references(scene, sizes.reference_samples / 8, sizes.reference_photons,
                            sizes.batches, options.threads);
     Convergence found = begun(scene, references, 0.05);
-    const Judge judge{scene, references, found, options.threads, sizes.pictures};
-    add_paths(judge, sizes.caustic_samples);
-    for (const std::size_t k : {30u, 120u})
+    const Judge judge{scene, references, found, options.threads};
+    add_paths(judge, 16, sizes.caustic_samples);
+    // Of few photons many are too far away.
+    for (const std::uint32_t k : {30u, 120u, 480u})
         for (const std::uint32_t aimed : sizes.photons)
-            add_photons(
-                judge, fmt::format("photons, k = {}", k),
-                fmt::format("{} aimed", with_commas(aimed)),
-                {.count = sizes.indirect_photons, .aimed = aimed, .caustic_k = k, .samples = 4});
+            if (aimed >= 600 * k || (options.small && k == 30))
+                add_photons(judge, fmt::format("photons, k = {}", k),
+                            fmt::format("{} aimed", with_commas(aimed)),
+                            {.count = sizes.indirect_photons,
+                             .aimed = aimed,
+                             .caustic_k = k,
+                             .samples = (sizes.samples + 1) / 2});
     for (const std::uint32_t count : sizes.photons)
         if (count <= 1'000'000)
             add_photons(judge, "photons to all sides, k = 30",
                         fmt::format("{} emitted", with_commas(count)),
-                        {.count = count, .caustic_k = 30, .samples = 4});
+                        {.count = count, .samples = (sizes.samples + 1) / 2});
     return found;
 }
 
@@ -210,25 +224,25 @@ Convergence measure_room(const std::string& name, int width, const Options& opti
     const TracedScene scene = traced(name, options, width);
     const References references = path_references(scene, sizes.reference_samples, options.threads);
     Convergence found = begun(scene, references, 0.02);
-    const Judge judge{scene, references, found, options.threads, sizes.pictures};
-    add_paths(judge, sizes.room_samples);
-    for (const std::size_t k : {50u, 400u})
+    const Judge judge{scene, references, found, options.threads};
+    add_paths(judge, 1, sizes.room_samples);
+    for (const std::uint32_t k : {50u, 200u})
         for (const std::uint32_t count : sizes.photons)
-            if (count <= 1'000'000)
+            if ((count >= 400 * k || (options.small && k == 50)) && count <= 1'000'000)
                 add_photons(judge, fmt::format("photons, k = {}", k),
                             fmt::format("{} emitted", with_commas(count)),
-                            {.count = count, .indirect_k = k});
+                            {.count = count, .indirect_k = k, .samples = sizes.samples});
     for (const int rays : sizes.gather_rays)
-        add_photons(judge, "photons, gathered", fmt::format("{} rays", rays),
+        add_photons(judge, "photons, gathered", counted(static_cast<std::uint64_t>(rays), "ray"),
                     {.count = std::min(100'000u, sizes.photons.back()),
                      .indirect_k = 100,
                      .gather_rays = rays,
-                     .samples = 2});
+                     .samples = sizes.samples});
     for (const bool gradients : {false, true})
-        for (const double accuracy : sizes.accuracies)
+        for (const CacheSetting& cache : sizes.caches)
             add_cache(judge, gradients ? "cache, gradients" : "cache, constant",
-                      {.accuracy = accuracy, .grid = sizes.grid, .gradients = gradients},
-                      options.small ? 4 : 16);
+                      {.accuracy = cache.accuracy, .grid = sizes.grid, .gradients = gradients},
+                      cache.samples);
     return found;
 }
 

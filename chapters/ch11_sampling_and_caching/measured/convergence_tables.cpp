@@ -37,14 +37,14 @@ bool is_random_only(const std::string& method) {
 std::string bias_text(const ErrorPoint& p, const Convergence& found) {
     return is_random_only(p.method) ? "none" : error_text(p.bias, found);
 }
-double slope_of(const std::vector<ErrorPoint>& line) {
+std::string slope_text(const std::vector<ErrorPoint>& line) {
     std::vector<double> x, y;
     for (const ErrorPoint& p : line)
         if (p.error > 0.0) {
             x.push_back(p.seconds);
             y.push_back(p.error);
         }
-    return log_log_slope(x, y);
+    return x.size() < 2 ? "" : fixed(log_log_slope(x, y), 2);
 }
 
 Table points_table(const Convergence& found) {
@@ -63,7 +63,7 @@ Table methods_table(const Convergence& found) {
         const std::vector<ErrorPoint> line = found.of(method);
         const ErrorPoint &first = line.front(), &last = line.back();
         table.row({method, first.setting, error_text(first.error, found), last.setting,
-                   error_text(last.error, found), fixed(slope_of(line), 2), bias_text(last, found),
+                   error_text(last.error, found), slope_text(line), bias_text(last, found),
                    seconds_text(found.seconds_to(method, found.target))});
     }
     return table;
@@ -93,14 +93,14 @@ constexpr ConvergenceGoal goals[] = {{"ring", "photons", 0.05, 10.0},
                                      {"interior", "cache", 0.02, 5.0}};
 
 Table goals_table(const std::vector<Convergence>& measured) {
-    Table table({"scene", "to an error of", "by", "seconds", "by paths", "wanted", "reached"});
+    Table table({"scene", "to an error of", "by", "seconds", "by paths", "times as fast: wanted",
+                 "reached"});
     for (const ConvergenceGoal& goal : goals) {
         const Convergence& found = scene_named(measured, goal.scene);
         table.row({goal.scene, percent(goal.error), goal.methods,
                    seconds_text(found.least_seconds_to(goal.methods, goal.error)),
-                   seconds_text(found.least_seconds_to("paths", goal.error)),
-                   fixed(goal.wanted, 0) + " times",
-                   gain_text(found.gain(goal.methods, goal.error)) + " times"});
+                   seconds_text(found.least_seconds_to("paths", goal.error)), fixed(goal.wanted, 0),
+                   gain_text(found.gain(goal.methods, goal.error))});
     }
     return table;
 }

@@ -132,7 +132,7 @@ References caustic_references(const TracedScene& scene, std::uint32_t samples,
     });
     for (std::size_t i = 0; i < straight.size(); ++i)
         if (straight[i] &&
-            caustics[0][i] + caustics[1][i] > 0.5 * (pictures[0][i] + pictures[1][i]))
+            caustics[0][i] + caustics[1][i] > 0.25 * (pictures[0][i] + pictures[1][i]))
             references.judged.push_back(i);
     return references;
 }

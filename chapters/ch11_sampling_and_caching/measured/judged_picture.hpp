@@ -74,8 +74,9 @@ struct References {
 /// Paths as the reference; judged: where no light is seen, nor by a pixel beside.
 References path_references(const TracedScene& scene, std::uint32_t samples, unsigned threads);
 
-/// Where a caustic is most of the light, on a surface that is seen straight: paths for the lights'
-/// direct light, photons that are put into the pixels that see them for all other light.
+/// Where a caustic is more than a quarter of the light, on a surface that is seen straight: paths
+/// for the lights' direct light, photons that are put into the pixels that see them for all other
+/// light.
 References caustic_references(const TracedScene& scene, std::uint32_t samples,
                               std::uint32_t photons, std::uint32_t batches, unsigned threads);
 
