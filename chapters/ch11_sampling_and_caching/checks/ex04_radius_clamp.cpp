@@ -44,8 +44,10 @@ std::vector<Record> random_records(Pcg32& random, std::size_t count) {
     while (records.size() < count) {
         Record record{Double3(random_point(random, 0.0f, 4.0f)), {}};
         for (std::uint32_t rays = 1 + random.below(8); rays > 0; --rays) {
-            const double distance = std::ldexp(random.uniform_double(), int(random.below(8)) - 3);
-            record.distances.push_back(random.below(10) ? distance : random.below(2) ? nothing : 0);
+            const int exponent = int(random.below(8)) - 3;
+            const double distance = std::ldexp(random.uniform_double(), exponent);
+            const std::uint32_t kind = random.below(20);
+            record.distances.push_back(kind > 1 ? distance : kind > 0 ? nothing : 0.0);
         }
         records.push_back(std::move(record));
     }
