@@ -11,7 +11,7 @@ Image fig_11_12(const Options& options) {
         ring.tree, ring.lit, ring.lights, {.count = 50'000, .threads = options.threads}, 400'000);
     const PhotonLookupConfig lookup{.caustic = {.k = 100, .largest_radius = 0.05f},
                                     .indirect = {.k = 100}};
-    return side_by_side({ring.paths(32).image(), ring.photons(4, maps, lookup).image()});
+    return side_by_side({ring.paths(32).image(), ring.photons(2, maps, lookup).image()});
 }
 
 }  // namespace space::ch11
