@@ -287,6 +287,23 @@ TEST_CASE("a mirror: the lamp's image shines as if it stood behind it, dimmed") 
     }
 }
 
+TEST_CASE("what a mirror throws of light that a floor has reflected is no caustic") {
+    // The lamp looks down; only the floor sends light to the mirror above.
+    const World hall = world(std::array{Surface{ground, Color(0.9375f)},
+                                        Surface{panel(-0.5, -0.5, 1, 1, 1), {}, lamp_colour},
+                                        Surface{panel(-8, -8, 2, 16, 16), Color(1), {}, true}});
+    const PhotonTrace trace = trace_photons(hall.tracer, hall.lit, hall.lights, {.count = 500});
+    int direct = 0, caustic = 0, indirect = 0;
+    for (const Photon& photon : trace.photons) {
+        direct += photon.path == PhotonPath::direct;
+        caustic += photon.path == PhotonPath::caustic;
+        indirect += photon.path == PhotonPath::indirect;
+    }
+    CHECK(direct > 400);
+    CHECK(indirect > 400);
+    CHECK(caustic == 0);
+}
+
 // ------------------------------------------------------------------ all light of a closed room
 
 namespace {
