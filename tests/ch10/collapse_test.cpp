@@ -2,20 +2,27 @@
 // greedy one.
 #include "chapters/ch10_fast_traversal/collapse.hpp"
 
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/median_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/spatial_split_builder.hpp"
+#include "chapters/ch10_fast_traversal/fast_bvh.hpp"
+#include "chapters/ch10_fast_traversal/instruction_set.hpp"
+#include "common/accelerator.hpp"
 #include "common/random.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch10/wide_faults.hpp"
 #include "tests/suite/adversarial_scenes.hpp"
+#include "tests/suite/test_rays.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace space {
@@ -141,13 +148,13 @@ TEST_CASE("the collapse is the cheapest of all choices, and costs what it says")
 TEST_CASE("on the book's scenes the greedy collapse is dearer, and both cost what they say") {
     for (const char* name : {"icosphere", "soup", "slivers", "boxes", "building:1", "stadium:3"}) {
         const auto triangles = make_scene(name, 1, true).mesh.triangles();
-        const auto check = [&](const BvhNodes<3>& binary) {
+        const auto check = [&](const BvhNodes<3>& binary, Named how) {
             const auto compare = [&]<int N>() {
                 const CollapseConfig config{}, greedy{.way = CollapseConfig::Way::greedy};
                 const auto best = collapsed<N>(binary, triangles, config),
                            other = collapsed<N>(binary, triangles, greedy);
-                REQUIRE(wide_faults(best, triangles) == "");
-                REQUIRE(wide_faults(other, triangles) == "");
+                REQUIRE(wide_faults(best, triangles, how) == "");
+                REQUIRE(wide_faults(other, triangles, how) == "");
                 REQUIRE(best.cost == Approx(cost_of(best, config)).epsilon(1e-4));
                 REQUIRE(cost_of(other, greedy) >= best.cost * (1.0 - 1e-4));
                 return cost_of(other, greedy) / best.cost;
@@ -159,8 +166,100 @@ TEST_CASE("on the book's scenes the greedy collapse is dearer, and both cost wha
             CHECK(four > 1.0);
         };
         CAPTURE(name);
-        check(BinnedBuilder::build<3>(triangles));
-        check(SpatialSplitBuilder::build<3>(triangles));
+        check(BinnedBuilder::build<3>(triangles), Named::once);
+        check(SpatialSplitBuilder::build<3>(triangles), Named::in_parts);
+    }
+}
+
+TEST_CASE("a leaf names a triangle once, though spatial splits have put it into all of its parts") {
+    // Rods along the diagonal: splits cut them, and the collapse joins what they were cut into.
+    const auto rods = make_scene("slivers:200").mesh.triangles();
+    const SpatialSplitConfig splits{.costs = {0.0, 1.0},
+                                    .max_leaf_size = 1,
+                                    .min_overlap = 0.0,
+                                    .max_growth = 4.0,
+                                    .unsplits = false};
+    const auto binary = SpatialSplitBuilder::build<3>(rods, splits);
+    REQUIRE(binary.references.size() > rods.size());
+    const CollapseConfig large{.node_cost = 4.0, .max_leaf = 32};
+    const auto four = collapsed<4>(binary, rods, large);
+    const auto eight = collapsed<8>(binary, rods, large);
+    CHECK(wide_faults(four, rods, Named::in_parts) == "");
+    CHECK(wide_faults(eight, rods, Named::in_parts) == "");
+    CHECK(four.references < binary.references.size());
+    CHECK(eight.references < binary.references.size());
+    CHECK(eight.references > rods.size());
+}
+
+TEST_CASE("a triangle that is named twice is a fault") {
+    const auto triangles = scenes::soup(20, 0.3f, 1);
+    const auto binary = MedianBuilder::build<3>(triangles, {.max_leaf_size = 3});
+    auto tree = collapsed<4>(binary, triangles, {.max_leaf = 3});
+    REQUIRE(wide_faults(tree, triangles) == "");
+    TriangleBlock& block = tree.blocks.front();
+    REQUIRE((block.is_used(0) && !block.is_used(3)));
+    const std::uint32_t own = block.indices[0], other = tree.blocks.back().indices[0];
+    ++tree.references;
+    const auto fault_with = [&](std::uint32_t index, Named how) {
+        block.put(block.is_used(2) ? 3 : 2, triangles[index], index);
+        std::string fault = wide_faults(tree, triangles, how);
+        block.clear(block.is_used(3) ? 3 : 2);
+        return fault;
+    };
+    for (const Named how : {Named::once, Named::in_parts})
+        CHECK(fault_with(own, how) == fmt::format("triangle {}: twice in one leaf", own));
+    CHECK(fault_with(other, Named::once) != "");
+    CHECK(fault_with(other, Named::in_parts) == "");
+}
+
+namespace {
+
+/// One binary leaf with so many triangles, which a wide leaf may not hold.
+template <int N>
+void check_crowd(std::uint32_t count) {
+    constexpr std::size_t most = WideChild::max_blocks * TriangleBlock::size;
+    const auto triangles = scenes::soup(count, 0.2f, count);
+    const auto binary = MedianBuilder::build<3>(triangles, {.max_leaf_size = count});
+    REQUIRE(binary.depth == 0);
+    const auto tree = collapsed<N>(binary, triangles);
+    CAPTURE(N, count);
+    REQUIRE(wide_faults(tree, triangles) == "");
+    REQUIRE(tree.root->is_leaf() == (count <= most));
+    // As few levels as there can be, and boxes no larger than what is in them.
+    unsigned levels = 0;
+    for (std::size_t room = most; room < count; room *= N) ++levels;
+    CHECK(tree.depth == levels);
+    for (const WideNode<N>& node : tree.nodes)
+        for (std::size_t i = 0; i < N; ++i) {
+            if (!node.is_used(i) || !node.children[i].is_leaf()) continue;
+            Aabb box;
+            tree.each_block(node.children[i], [&](const TriangleBlock& block) {
+                for (std::size_t lane = 0; lane < 4 && block.is_used(lane); ++lane)
+                    box.extend(bounds(block.triangle(lane)));
+                return true;
+            });
+            REQUIRE(box == node.box(i));
+        }
+    const auto naive = Naive<FilteredExact>::build(triangles);
+    RayMaker maker(triangles, 3);
+    std::vector<Ray> rays;
+    for (const Triangle& t : triangles) rays.push_back(maker.probe(t));
+    for (const InstructionSet set : usable_instruction_sets()) {
+        const auto bvh = WideBvh<N, MedianBuilder>::of(tree, set);
+        CAPTURE(name_of(set));
+        for (const Ray& ray : rays) {
+            REQUIRE(closest_hit(bvh, ray) == closest_hit(naive, ray));
+            REQUIRE(any_hit(bvh, ray) == closest_hit(naive, ray).has_value());
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a crowd that no leaf may hold is shared out, from 33 triangles on, and none is lost") {
+    for (const std::uint32_t count : {1u, 31u, 32u, 33u, 64u, 65u, 128u, 129u, 257u, 300u}) {
+        check_crowd<4>(count);
+        check_crowd<8>(count);
     }
 }
 

@@ -1,6 +1,11 @@
 // The filter of a leaf's four lanes: its bounds hold, and are not much larger than errors get.
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch10_fast_traversal/instruction_set.hpp"
+#include "chapters/ch10_fast_traversal/kernels/kernel_table.hpp"
+#include "chapters/ch10_fast_traversal/triangle_block.hpp"
+#include "common/geometry.hpp"
 #include "common/pcg32.hpp"
+#include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch10/filter_numbers.hpp"
 
@@ -8,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace space {
@@ -150,6 +156,75 @@ TEST_CASE("of the filter's bounds a fifth is used by some lane, and by none all"
     check("products and sums rounded", filter_errors(plain_filter::filter_numbers, blocks));
     if (std::ranges::count(usable_instruction_sets(), InstructionSet::avx2) > 0)
         check("fused", filter_errors(fused_filter::filter_numbers, blocks));
+}
+
+namespace {
+
+/// Triangles at the origin whose plane the ray begins beside, by 2^-27 to 2^-21, and goes along:
+/// det is about as large as its error in floats, so that its sign there is often another one; and t
+/// det is far larger than its own.
+struct Grazing {
+    Triangle triangle;
+    Ray ray;
+};
+Grazing some_grazing(Pcg32& random) {
+    const Vector3 e1 = random_vector(random);
+    const Vector3 e2 = random_vector(random);
+    const Vector3 away = random_vector(random);
+    const int exponent = -27 + int(random.below(7));
+    const float u = random.uniform(0.1f, 0.5f);
+    const float v = random.uniform(0.1f, 0.5f);
+    const Point3 origin = std::ldexp(1.0f, exponent) * away;
+    return {{Point3(0.0f), e1, e2}, {.origin = origin, .direction = u * e1 + v * e2 - origin}};
+}
+
+struct GrazingCounts {
+    std::size_t hits = 0;
+    std::size_t turned = 0;  ///< of these, where floats give det the other sign
+    std::size_t lost = 0, invented = 0;
+};
+template <class Numbers, class Masks>
+GrazingCounts grazing_counts(const Numbers& numbers, const Masks& masks, int cases) {
+    Pcg32 random(2);
+    GrazingCounts counts;
+    for (int i = 0; i < cases; ++i) {
+        const Grazing c = some_grazing(random);
+        TriangleBlock block;
+        for (std::size_t lane = 0; lane < 4; ++lane) block.put(lane, c.triangle, 0);
+        KernelRay ray{};
+        if (!prepare_kernel_ray(c.ray, 1.0f, ray)) continue;
+        FilterMasks found{};
+        masks(block.corners[0].data(), ray, found);
+        const bool is_hit = FilteredExact::intersect(c.ray, c.triangle).has_value();
+        counts.invented += !is_hit && found.must_hit != 0;
+        if (!is_hit) continue;
+        ++counts.hits;
+        counts.lost += found.may_hit != 15;
+        FilterNumbers of;
+        numbers(block.corners[0].data(), ray, of);
+        counts.turned += of[0].t < 0.0f;  // as they are turned, a hit has both above 0
+    }
+    return counts;
+}
+void check_grazing(const char* how, const GrazingCounts& counts) {
+    fmt::print("  along the plane, {}: {} hits, {} of them with the other sign of det\n", how,
+               counts.hits, counts.turned);
+    CHECK(counts.turned > counts.hits / 100);
+    CHECK(counts.lost == 0);
+    CHECK(counts.invented == 0);
+}
+
+}  // namespace
+
+// Without the second condition on what lies before tmin, a det whose sign is lost turns a hit ahead
+// into one behind.
+TEST_CASE("a ray along a triangle's plane hits it, though floats give det the other sign") {
+    const int cases = sized(50'000, 3'000);
+    check_grazing("products and sums rounded",
+                  grazing_counts(plain_filter::filter_numbers, plain_filter::filter_masks, cases));
+    if (std::ranges::count(usable_instruction_sets(), InstructionSet::avx2) > 0)
+        check_grazing("fused", grazing_counts(fused_filter::filter_numbers,
+                                              fused_filter::filter_masks, cases));
 }
 
 }  // namespace space

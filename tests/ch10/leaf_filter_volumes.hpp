@@ -14,5 +14,9 @@ void filter_numbers(const float* block, const KernelRay& ray, FilterNumbers& res
         result[lane] = {of.size[lane],  of.u[lane],    of.v[lane],    of.t[lane],
                         of.bound[lane], of.late[lane], of.early[lane]};
 }
+void filter_masks(const float* block, const KernelRay& ray, FilterMasks& result) {
+    const LeafLanes lanes = filter_leaf<true>(reinterpret_cast<const char*>(block), ray, ray.limit);
+    result = {lanes.may_hit, lanes.must_hit};
+}
 
 }  // namespace space::SPACE_ISA

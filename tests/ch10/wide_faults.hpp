@@ -14,15 +14,49 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace space {
 
-/// Empty for a whole tree: each finite triangle in at least one block and as it was given; boxes
-/// around all that is below; empty places that nothing meets; depth, leaves, references and the
-/// stack's size as they are counted.
+/// In how many leaves a triangle may be.
+enum class Named {
+    once,     ///< in one alone
+    in_parts  ///< in several, as spatial splits put it; their boxes hold what they cut from it
+};
+
+/// How often leaves name each triangle, leaf after leaf.
+class Names {
+  public:
+    explicit Names(std::size_t triangles) : times_(triangles), leaf_(triangles, nowhere) {}
+
+    /// @return false where this leaf has named it before
+    bool add(std::uint32_t triangle, std::size_t leaf) {
+        ++times_[triangle];
+        return std::exchange(leaf_[triangle], leaf) != leaf;
+    }
+    /// What is wrong when all leaves have named theirs: each finite triangle must be in some leaf.
+    std::string faults(std::span<const Triangle> triangles, Named how) const {
+        for (std::size_t i = 0; i < times_.size(); ++i) {
+            const bool is_whole = !box_if_finite<3>(triangles[i]).is_empty();
+            if ((times_[i] > 0) != is_whole || (times_[i] > 1 && how == Named::once))
+                return fmt::format("triangle {}: in {} leaves", i, times_[i]);
+        }
+        return "";
+    }
+
+  private:
+    static constexpr auto nowhere = ~std::size_t{0};
+
+    std::vector<std::size_t> times_, leaf_;
+};
+
+/// Empty for a whole tree: each finite triangle in a leaf, in none of them twice, and as it was
+/// given; boxes around all that is below; empty places that nothing meets; depth, leaves,
+/// references and the stack's size as they are counted.
 template <int N>
-std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> triangles) {
+std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> triangles,
+                        Named how = Named::once) {
     struct Waiting {
         WideChild child;
         Aabb box;
@@ -31,8 +65,8 @@ std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> trian
     const auto is_whole = [&](const Triangle& t) { return !box_if_finite<3>(t).is_empty(); };
     if (tree.empty())
         return std::ranges::any_of(triangles, is_whole) ? "an empty tree over triangles" : "";
-    std::vector<unsigned> named(triangles.size()), node_used(tree.nodes.size()),
-        block_used(tree.blocks.size());
+    std::vector<unsigned> node_used(tree.nodes.size()), block_used(tree.blocks.size());
+    Names names(triangles.size());
     std::vector<Waiting> waiting{{*tree.root, tree.box, 0}};
     unsigned depth = 0;
     std::size_t leaves = 0, references = 0;
@@ -79,15 +113,16 @@ std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> trian
                 if (index >= triangles.size()) return "a triangle that is none";
                 if (!(block.triangle(lane) == triangles[index]))
                     return fmt::format("triangle {} has changed", index);
+                if (how == Named::once && !box.contains(bounds(triangles[index])))
+                    return fmt::format("triangle {} exceeds its leaf", index);
                 ++references;
-                ++named[index];
+                if (!names.add(index, leaves))
+                    return fmt::format("triangle {}: twice in one leaf", index);
             }
             if (!block.is_used(0)) return "a block of nothing";
         }
     }
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        if ((named[i] > 0) != is_whole(triangles[i]))
-            return fmt::format("triangle {}: in {} blocks", i, named[i]);
+    if (const std::string fault = names.faults(triangles, how); !fault.empty()) return fault;
     if (depth != tree.depth) return fmt::format("depth {}, not {}", tree.depth, depth);
     if (leaves != tree.leaves) return fmt::format("{} leaves, not {}", tree.leaves, leaves);
     if (references != tree.references) return "another number of references";
@@ -98,7 +133,8 @@ std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> trian
 
 /// The same of a compressed tree, but for boxes: those of children may exceed their parent's. (That
 /// none is smaller than it was has a test of its own.)
-inline std::string wide_faults(const CompressedTree& tree, std::span<const Triangle> triangles) {
+inline std::string wide_faults(const CompressedTree& tree, std::span<const Triangle> triangles,
+                               Named how = Named::once) {
     struct Waiting {
         WideChild child;
         unsigned depth;
@@ -106,7 +142,8 @@ inline std::string wide_faults(const CompressedTree& tree, std::span<const Trian
     const auto is_whole = [&](const Triangle& t) { return !box_if_finite<3>(t).is_empty(); };
     if (tree.empty())
         return std::ranges::any_of(triangles, is_whole) ? "an empty tree over triangles" : "";
-    std::vector<unsigned> named(triangles.size()), node_used(tree.nodes.size());
+    std::vector<unsigned> node_used(tree.nodes.size());
+    Names names(triangles.size());
     std::vector<Waiting> waiting{{*tree.root, 0}};
     unsigned depth = 0;
     std::size_t leaves = 0, references = 0;
@@ -133,17 +170,15 @@ inline std::string wide_faults(const CompressedTree& tree, std::span<const Trian
                     fault = "a triangle that is none";
                 else if (!(block.triangle(lane) == triangles[index]))
                     fault = fmt::format("triangle {} has changed", index);
-                else
-                    ++named[index];
+                else if (!names.add(index, leaves))
+                    fault = fmt::format("triangle {}: twice in one leaf", index);
                 ++references;
             }
             return fault.empty();
         });
     }
     if (!fault.empty()) return fault;
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        if ((named[i] > 0) != is_whole(triangles[i]))
-            return fmt::format("triangle {}: in {} leaves", i, named[i]);
+    if (fault = names.faults(triangles, how); !fault.empty()) return fault;
     if (depth != tree.depth) return fmt::format("depth {}, not {}", tree.depth, depth);
     if (leaves != tree.leaves) return fmt::format("{} leaves, not {}", tree.leaves, leaves);
     if (references != tree.triangles.size()) return "triangles in no leaf";
