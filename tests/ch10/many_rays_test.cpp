@@ -45,16 +45,15 @@ struct NamedWay {
     Way way;
 };
 std::vector<NamedWay> ways() {
-    // Who asks for packets of more than 64 rays, or more than 32 under way, gets those numbers.
     std::vector<NamedWay> all;
-    for (const std::size_t size : {1, 3, 16, 17, 31, 32, 33, 64, 65})
+    for (const std::size_t size : {1, 3, 16, 17, 32, 64})
         all.push_back({"packets of " + std::to_string(size),
                        [size](const Tree& tree, std::span<const Ray> rays, ManyQuery query) {
                            return answers_by(rays, [&](const auto& answer) {
                                trace_in_packets(tree, rays, size, query, answer);
                            });
                        }});
-    for (const unsigned together : {1u, 2u, 7u, 31u, 32u, 33u, 64u})
+    for (const unsigned together : {1u, 2u, 7u, 32u})
         all.push_back({std::to_string(together) + " interleaved",
                        [together](const Tree& tree, std::span<const Ray> rays, ManyQuery query) {
                            return answers_by(rays, [&](const auto& answer) {

@@ -3,6 +3,7 @@
 #include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/instruction_set.hpp"
+#include "chapters/ch10_fast_traversal/interleaved.hpp"
 #include "chapters/ch10_fast_traversal/packets.hpp"
 #include "common/accelerator.hpp"
 #include "common/geometry.hpp"
@@ -10,9 +11,9 @@
 #include "tests/catch.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <vector>
@@ -130,6 +131,26 @@ TEST_CASE("a triangle that a packet's rays touch at a corner is not left out for
             const FastBvh<> tree = FastBvh<>::build(one, {.instructions = set});
             CAPTURE(i, name_of(set));
             REQUIRE(lost(tree, rays, 8, ManyQuery::closest) == 0);
+        }
+    }
+}
+
+// A packet has at most 64 rays, and at most 32 are under way: who asks for more gets that many.
+TEST_CASE("packets and turns of 31, 32, 33, 64 and 65 rays lose none") {
+    Pcg32 random(3);
+    const std::vector<Triangle> triangles = cornered(random, 100);
+    const std::vector<Ray> rays = to_corners(triangles, Point3(1.25f), 2);
+    REQUIRE(rays.size() > 130);
+    for (const InstructionSet set : usable_instruction_sets()) {
+        const FastBvh<> tree = FastBvh<>::build(triangles, {.instructions = set});
+        for (const unsigned many : {31u, 32u, 33u, 64u, 65u}) {
+            CAPTURE(name_of(set), many);
+            CHECK(lost(tree, rays, many, ManyQuery::closest) == 0);
+            std::vector<int> told(rays.size());
+            trace_interleaved(
+                tree, rays, many, ManyQuery::closest,
+                [&](std::size_t i, const std::optional<Hit>& hit) { told[i] += hit.has_value(); });
+            CHECK(std::ranges::count(told, 1) == std::ssize(told));
         }
     }
 }
