@@ -15,6 +15,7 @@ namespace space {
 
 /// A builder without its type.
 struct AnyBvhBuilder {
+    /// The builder with its own Config, and what its tree's cost is counted by.
     struct Config {
         std::function<BvhNodes<3>(std::span<const Triangle>)> make;
         BvhCosts costs;
