@@ -1,22 +1,25 @@
 /// @file
-/// Scenes that are easy or hard for structures: clouds of random triangles, a sphere of many equal
-/// ones.
+/// Scenes that are easy or hard for structures: clouds of random triangles, dust, one triangle as
+/// large as all others together, a sphere of many equal ones.
 #include "common/pcg32.hpp"
 #include "common/scenes/makers.hpp"
 #include "common/scenes/shapes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace space {
 namespace {
 
-const Color& any_color(Pcg32& random) {
-    static const Color colors[] = {srgb(0xC8553D), srgb(0xE0A458), srgb(0x3D7C88),
-                                   srgb(0x2C4A5E), srgb(0x9AB87A), srgb(0xE7DBC3)};
-    return colors[random.below(6)];
+const Color& any_of(std::span<const Color> colors, Pcg32& random) {
+    return colors[random.below(static_cast<std::uint32_t>(colors.size()))];
 }
+
+const std::array confetti{srgb(0xC8553D), srgb(0xE0A458), srgb(0x3D7C88),
+                          srgb(0x2C4A5E), srgb(0x9AB87A), srgb(0xE7DBC3)};
 
 /// A point of the unit ball in D dimensions, by throwing away those outside.
 template <int D>
@@ -51,13 +54,18 @@ void add_triangle(Scene& scene, const Double3& a, const Double3& b, const Double
     scene.colors.push_back(color);
 }
 
-/// An equilateral triangle of the given circumradius in any orientation.
-void add_random_triangle(Scene& scene, double radius, Pcg32& random) {
-    const Double3 centre = in_unit_cube(random);
+/// An equilateral triangle of the given circumradius in any orientation and any of the colours.
+void add_turned_triangle(Scene& scene, const Double3& centre, double radius,
+                         std::span<const Color> colors, Pcg32& random) {
     const auto [u, v] = random_orientation(random);
     const double half = 0.5 * radius, wide = std::sqrt(0.75) * radius;
     add_triangle(scene, centre + radius * u, centre - half * u + wide * v,
-                 centre - half * u - wide * v, any_color(random));
+                 centre - half * u - wide * v, any_of(colors, random));
+}
+
+void add_random_triangle(Scene& scene, double radius, Pcg32& random) {
+    const Double3 centre = in_unit_cube(random);
+    add_turned_triangle(scene, centre, radius, confetti, random);
 }
 
 void look_at_unit_cube(Scene& scene) {
@@ -104,6 +112,59 @@ void make_slivers(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
                      centre - 0.5 * along - half_width * across, straws[random.below(6)]);
     }
     look_at_unit_cube(scene);
+}
+
+/// A galaxy of specks, each far smaller than the gap to the next one: to a structure they are
+/// points, and nearly all rays miss.
+void make_dust(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
+    Pcg32 random(seed);
+    const double radius = 0.03 / std::cbrt(triangles);
+    const Color core[] = {srgb(0xFFE6B0), srgb(0xFFD089), srgb(0xFFF3D8)};
+    const Color arms[] = {srgb(0x9FC2E8), srgb(0xCFE0F2), srgb(0x7FA6D6), srgb(0xE8C9D8)};
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+        const Double3 p = in_unit_ball<3>(random);
+        if (i % 4 == 0) {
+            add_turned_triangle(scene, glm::dot(p, p) * p * Double3{0.32, 0.20, 0.32}, radius, core,
+                                random);
+            continue;
+        }
+        // A bar along x, each point of it turned by an angle that grows with its distance: two
+        // arms. (1 - s^2, 2 s) / (1 + s^2) are cosine and sine of 2 atan s; squared, of 4 atan s.
+        const Double3 bar{p.x, 0.05 * p.y, 0.32 * p.z * std::abs(p.z)};
+        const double s = 1.3 * std::sqrt(bar.x * bar.x + bar.z * bar.z), one = 1.0 + s * s;
+        const double c1 = (1.0 - s * s) / one, s1 = 2.0 * s / one;
+        const double c2 = c1 * c1 - s1 * s1, s2 = 2.0 * s1 * c1;
+        add_turned_triangle(scene, {c2 * bar.x - s2 * bar.z, bar.y, s2 * bar.x + c2 * bar.z},
+                            radius, arms, random);
+    }
+    scene.camera = {
+        .eye = {0.3f, 1.35f, 1.75f}, .target = {0.03f, -0.03f, 0.1f}, .field_of_view = 38};
+    scene.background = srgb(0x070B14);
+    add_eye_light(scene, Color{3.5f, 3.5f, 3.5f});
+    add_light(scene, {0.0, 0.7, 0.0}, {0.5, 0.0, 0.5}, Color{0.9f, 0.8f, 0.7f});
+}
+
+/// Confetti that falls on a blanket: one huge slanted triangle, whose box holds all the others.
+void make_blanket(Scene& scene, std::uint32_t triangles, std::uint64_t seed) {
+    Pcg32 random(seed);
+    const Double3 a{-9.0, -2.8, 7.0}, b{9.0, -3.8, 6.0}, c{0.5, 5.6, -11.0};
+    add_triangle(scene, a, b, c, srgb(0x35596E));
+    const Double3 middle = (a + b + c) / 3.0, along = glm::normalize(b - a),
+                  up = glm::normalize(glm::cross(b - a, c - a)), back = glm::cross(up, along);
+    const double radius = 1.5 / std::sqrt(triangles);
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+        const glm::dvec2 p = in_unit_ball<2>(random);
+        const double u = random.uniform_double(), height = 1.1 * radius + 0.7 * u * u * u;
+        add_turned_triangle(scene, middle + p.x * along + p.y * back + height * up, radius,
+                            confetti, random);
+    }
+    scene.camera = {.eye = Point3(middle + Double3{0.3, 1.15, 2.1}),
+                    .target = Point3(middle + Double3{0.0, 0.12, 0.0}),
+                    .field_of_view = 40};
+    scene.background = srgb(0xC9DEE8);
+    add_light(scene, middle + Double3{-2.5, 3.6, 1.8}, middle, Color{0.95f, 0.88f, 0.76f});
+    add_light(scene, middle + Double3{3.0, 2.2, 1.0}, middle, Color{0.22f, 0.26f, 0.32f});
+    add_eye_light(scene, Color{0.25f, 0.25f, 0.26f});
 }
 
 /// A town of axis-aligned boxes, one beside the other: every face lies in an axis-parallel plane.
