@@ -2,6 +2,7 @@
 /// the lab is here. Run   ch12_comparison lab --scene sphereflake --structure all --check
 /// and for pictures over any of them   ch12_comparison render --scene room --out room.png
 #include "chapters/ch12_comparison/lab.hpp"
+#include "chapters/ch12_comparison/measured/comparison.hpp"
 #include "chapters/ch12_comparison/measured/lab_counts.hpp"
 #include "chapters/ch12_comparison/render.hpp"
 #include "common/program/error.hpp"
@@ -22,6 +23,10 @@ int lab(int argc, char** argv) {
 
 int render(int argc, char** argv) {
     return space::run_render(space::structures(), argc, argv);
+}
+
+int compare(int argc, char** argv) {
+    return space::ch12::run_compare(space::structures(), argc, argv);
 }
 
 int comparison(int argc, char** argv) {
@@ -51,6 +56,8 @@ int comparison(int argc, char** argv) {
 int main(int argc, char** argv) {
     if (argc > 1 && std::string_view(argv[1]) == "lab")
         return space::run_program("lab", lab, argc - 1, argv + 1);
+    if (argc > 1 && std::string_view(argv[1]) == "compare")
+        return space::run_program("compare", compare, argc - 1, argv + 1);
     if (argc > 1 && std::string_view(argv[1]) == "render")
         return space::run_program("render", render, argc - 1, argv + 1);
     return space::run_program("ch12_comparison", comparison, argc, argv);
