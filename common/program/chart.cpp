@@ -1,6 +1,7 @@
 #include "common/program/chart.hpp"
 
 #include "common/measure.hpp"
+#include "common/program/axis.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/report.hpp"
@@ -68,72 +69,6 @@ std::string csv_field(const std::string& text) {
     std::string result = "\"";
     for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
     return result + '"';
-}
-
-struct Tick {
-    double value;
-    std::string text;
-};
-
-/// One axis: its range, its ticks, and where on it a value lies.
-struct Axis {
-    bool logarithmic;
-    double low, high;
-    std::vector<Tick> ticks;
-
-    /// 0 at the low end, 1 at the high end.
-    double fraction(double value) const {
-        return logarithmic ? std::log(value / low) / std::log(high / low)
-                           : (value - low) / (high - low);
-    }
-};
-
-/// 25000 -> "25 K", where the axis reaches 10,000 or more.
-std::string tick_text(double value, double largest) {
-    constexpr std::array<std::pair<double, char>, 4> units{
-        {{1e12, 'T'}, {1e9, 'G'}, {1e6, 'M'}, {1e3, 'K'}}};
-    if (largest >= 1e4)
-        for (const auto& [unit, letter] : units)
-            if (value >= unit) return fmt::format("{:g} {}", value / unit, letter);
-    return fmt::format("{:g}", value);
-}
-
-Axis log_axis(double least, double most) {
-    // Room at both ends, so that no point sits in a corner.
-    const double pad = std::pow(std::max(most / least, 2.0), 0.05);
-    Axis axis{true, least / pad, most * pad, {}};
-    for (const std::vector<double>& steps :
-         {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {
-        axis.ticks.clear();
-        for (int e = static_cast<int>(std::floor(std::log10(axis.low)));
-             e <= std::ceil(std::log10(axis.high)); ++e)
-            for (const double step : steps) {
-                const double value = step * std::pow(10.0, e);
-                if (value >= axis.low && value <= axis.high)
-                    axis.ticks.push_back({value, tick_text(value, axis.high)});
-            }
-        if (axis.ticks.size() >= 3) break;
-    }
-    if (axis.ticks.size() > 8)  // their names would run into each other
-        std::erase_if(axis.ticks, [](const Tick& tick) {
-            return std::lround(std::log10(tick.value)) % 3 != 0;
-        });
-    return axis;
-}
-
-/// From zero, where no value is negative, to at least `headroom` steps above the largest.
-Axis linear_axis(double least, double most, double headroom = 0.0) {
-    const double low = std::min(least, 0.0), high = most > low ? most : low + 1.0;
-    const double raw = (high - low) / 5, decade = std::pow(10.0, std::floor(std::log10(raw)));
-    const double step = decade * (raw <= decade       ? 1
-                                  : raw <= 2 * decade ? 2
-                                  : raw <= 5 * decade ? 5
-                                                      : 10);
-    const double first = std::floor(low / step), last = std::ceil(high / step + headroom);
-    Axis axis{false, first * step, last * step, {}};
-    for (double k = first; k <= last; ++k)
-        axis.ticks.push_back({k * step, tick_text(k * step, axis.high)});
-    return axis;
 }
 
 /// What can be drawn of a series, and of its labels.
@@ -532,6 +467,8 @@ std::string chart_csv(const Chart& chart) {
 
 void write_chart(const std::filesystem::path& out, const Chart& chart) {
     write_file(out / (chart.id + ".csv"), chart_csv(chart));
+    if (chart.drawing)
+        return write_file(out / (chart.id + ".svg"), chart.drawing->document(chart.id));
     const std::optional<std::string> svg = run_gnuplot(Script(chart).text(), chart.id);
     if (!svg) {
         fmt::print(stderr, "{0}.csv is written, {0}.svg is not: gnuplot is not installed\n",

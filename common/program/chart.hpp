@@ -4,8 +4,11 @@
 /// pages too.
 #pragma once
 
+#include "common/program/svg.hpp"
+
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +50,9 @@ struct Chart {
     ChartKind kind = ChartKind::lines;
     std::vector<Series> series;
     std::vector<std::string> categories = {};  ///< names along x for bars
+    /// Of the same data, where one frame of points or bars does not show them: it is written in
+    /// gnuplot's place.
+    std::optional<Svg> drawing = {};
 
     /// A bar for each category, of the height that `value` gives for its name.
     template <class Value>

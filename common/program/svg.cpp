@@ -281,6 +281,9 @@ void Svg::text(Point2 at, std::string_view text, const TextStyle& style, std::st
         anchors[static_cast<std::size_t>(style.anchor)], svg_text_color(style.ink));
     if (style.bold) body_ += " font-weight=\"bold\"";
     if (style.halo) body_ += fmt::format(" class=\"halo\" stroke=\"{}\"", svg_color(Ink::paper));
+    if (style.turn != 0.0)
+        body_ += fmt::format(" transform=\"rotate({} {} {})\"", svg_number(style.turn),
+                             svg_number(at.x), svg_number(at.y));
     body_ += ">" + marked_up(text, style.size) + "</text>\n";
 }
 

@@ -54,6 +54,7 @@ struct TextStyle {
     double size = 18;  ///< in drawing units; below 16 nobody can read it on a phone
     bool bold = false;
     bool halo = false;  ///< a rim in the colour of the paper, for text over lines
+    double turn = 0.0;  ///< degrees about its point, clockwise
 };
 
 /// Drawing units with y *downwards*, as in SVG; a drawing is about 640 units wide. An element's id

@@ -106,6 +106,19 @@ TEST_CASE("a chart has the drawings' palette, style and ids") {
         CHECK_FALSE(contains(svg, foreign));
 }
 
+TEST_CASE("a chart with a drawing of its own is written as that, beside the same data") {
+    const TemporaryDirectory folder;
+    Chart chart = growth();
+    chart.drawing.emplace("its own", 640, 100);
+    chart.drawing->text({10, 20}, "by hand", {.turn = -60});
+    write_chart(folder.path(), chart);
+    const std::string svg = read_file(folder.path() / "fig_99_01.svg");
+    CHECK(contains(svg, ">by hand</text>"));
+    CHECK(contains(svg, "transform=\"rotate(-60 10 20)\""));
+    CHECK_FALSE(contains(svg, "gnuplot"));
+    CHECK(read_file(folder.path() / "fig_99_01.csv") == chart_csv(growth()));
+}
+
 TEST_CASE("the names of a chart's series have room: in one row, or in two") {
     if (!gnuplot_is_here()) {
         WARN("skipped: gnuplot is not installed");
