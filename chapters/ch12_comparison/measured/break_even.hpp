@@ -56,6 +56,7 @@ struct CheapestSpan {
 inline std::vector<CheapestSpan> lower_envelope(std::span<const CostLine> lines, double from,
                                                 double to) {
     std::vector<CheapestSpan> spans;
+    if (lines.empty()) return spans;
     std::size_t line = cheapest(lines, from);
     while (true) {
         const CostLine& now = lines[line];

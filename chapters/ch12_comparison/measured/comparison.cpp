@@ -1,5 +1,6 @@
 #include "chapters/ch12_comparison/measured/comparison.hpp"
 
+#include "common/measure.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/provenance.hpp"
@@ -26,8 +27,12 @@ void tell(const std::string& line) {
     fmt::print(stderr, "compare: {}\n", line);
 }
 
-/// All sources' fingerprints as one text.
-std::string sources_text(const Fingerprints& prints) {
+constexpr const char* chapter_name = "ch12_comparison";
+
+/// The fingerprints of all that is measured as one text. This chapter's own folder also makes
+/// tables and charts, whose changes need no new times; how it measures is in the settings.
+std::string sources_text(Fingerprints prints) {
+    prints.erase(fmt::format("chapters/{}", chapter_name));
     std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
     for (const auto& [folder, print] : prints)
         for (const char c : folder + print)
@@ -36,17 +41,21 @@ std::string sources_text(const Fingerprints& prints) {
 }
 
 /// An empty comparison as these options would fill it.
-Comparison begun(std::span<const Structure> structures, const Options& options) {
+Comparison begun(std::span<const Structure> structures, const CompareEffort& effort,
+                 const Options& options) {
     std::set<std::string> peers;
     for (const Structure& structure : structures)
         if (structure.is_peer) peers.emplace(structure.home);
-    const Provenance run = provenance("ch12_comparison", options);
+    const Provenance run = provenance(chapter_name, options);
     return {.rows = {},
             .machine = run.machine,
             .date = run.date,
             .sources = sources_text(run.sources),
             .settings = fmt::format(
-                "{}, seed {}, {}, {}", run.mode, options.seed, counted(options.threads, "thread"),
+                "{}, {} of each kind, {}, seed {}, {}, {}", run.mode,
+                counted(std::uint64_t(effort.width) * std::uint64_t(effort.height), "ray"),
+                counted(std::uint64_t(effort.turns), "turn"), options.seed,
+                counted(options.threads, "thread"),
                 peers.empty() ? "no peers" : fmt::format("{}", fmt::join(peers, ", ")))};
 }
 
@@ -109,7 +118,7 @@ int run_with_peers(const std::filesystem::path& program, const Options& options)
 Comparison compare_into(const std::filesystem::path& csv, std::span<const Structure> structures,
                         const CompareEffort& effort, const Options& options) {
     check_writable(csv);
-    Comparison comparison = taken_up(csv, begun(structures, options));
+    Comparison comparison = taken_up(csv, begun(structures, effort, options));
     std::set<std::string> done;
     for (const ComparedRow& row : comparison.rows) done.insert(row.spec);
     std::vector<std::pair<std::string, std::string>> to_do;
@@ -122,9 +131,11 @@ Comparison compare_into(const std::filesystem::path& csv, std::span<const Struct
     const std::size_t turns = static_cast<std::size_t>(std::max(1, effort.turns));
     Progress progress("comparing", to_do.size() * turns * compared_structures().size());
     for (const auto& [scene, spec] : to_do) {
+        Stopwatch stopwatch;
         auto rows = compare_on(make_subject(scene, spec, options.seed), structures, effort, options,
                                &progress);
         std::ranges::move(rows, std::back_inserter(comparison.rows));
+        comparison.minutes += stopwatch.lap().count() / 60e3;
         write_file(csv, csv_text(comparison));
     }
     if (to_do.empty() && done.empty()) throw input_error("there is nothing to compare");
@@ -155,7 +166,7 @@ Comparison measure_comparison(const Options& options) {
     const std::filesystem::path with_peers = program_with_peers();
     if (effort.turns == 0 || with_peers.empty()) {
         if (effort.turns > 0) return compare_into(csv, structures(), effort, options);
-        Comparison counted = begun(structures(), options);
+        Comparison counted = begun(structures(), effort, options);
         for (const auto& [scene, spec] : effort.blocks)
             std::ranges::move(
                 compare_on(make_subject(scene, spec, options.seed), structures(), effort, options),

@@ -131,6 +131,9 @@ void read_remark(std::string_view line, Comparison& comparison) {
           {"# sources: ", &comparison.sources},
           {"# settings: ", &comparison.settings}})
         if (line.starts_with(name)) *field = line.substr(name.size());
+    constexpr std::string_view minutes = "# minutes: ";
+    if (line.starts_with(minutes))
+        comparison.minutes = Cells::number<double>(line.substr(minutes.size()));
 }
 
 /// What can be read up to the first line that is broken.
@@ -230,9 +233,11 @@ const ComparedRow* find(std::span<const ComparedRow> block, std::string_view str
 
 std::string csv_text(const Comparison& comparison) {
     std::string text = fmt::format(
-        "# Chapter 12: each structure on each scene. Times are by the real clock; rays by one "
-        "thread.\n# machine: {}\n# date: {}\n# sources: {}\n# settings: {}\n{}\n",
-        comparison.machine, comparison.date, comparison.sources, comparison.settings, columns);
+        "# Chapter 12: each structure on each scene. Builds by the real clock; rays "
+        "by one thread's processor time\n# machine: {}\n# date: {}\n# sources: {}\n# settings: "
+        "{}\n# minutes: {:.2f}\n{}\n",
+        comparison.machine, comparison.date, comparison.sources, comparison.settings,
+        comparison.minutes, columns);
     for (const auto block : blocks(comparison)) {
         for (const ComparedRow& row : block) text += line_of(row);
         text += fmt::format("{}{}\n", whole_block, block.front().spec);

@@ -78,6 +78,7 @@ struct Comparison {
     std::vector<ComparedRow> rows;
     std::string machine, date;
     std::string sources;   ///< a fingerprint of what was measured
+    double minutes = 0.0;  ///< of measuring, in all runs together
     std::string settings;  ///< how much was measured, such as "full, seed 1, 2 threads"
 };
 

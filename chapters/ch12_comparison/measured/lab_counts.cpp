@@ -10,7 +10,7 @@
 
 namespace space::ch12 {
 
-Numbers count_lab() {
+void count_lab(Numbers& numbers) {
     const Scene scene = make_scene("sphereflake");
     const std::vector<Triangle> triangles = scene.mesh.triangles();
     const std::vector<Ray> rays = camera_rays({scene.camera, 64, 48});
@@ -36,11 +36,9 @@ Numbers count_lab() {
                    per_ray(work.triangles_tested)});
         progress.step();
     }
-    Numbers numbers;
     numbers.count("lab_triangles", triangles.size());
     numbers.count("lab_rays", rays.size());
     numbers.count_table("lab", table);
-    return numbers;
 }
 
 }  // namespace space::ch12

@@ -8,6 +8,6 @@ namespace space::ch12 {
 
 /// Each structure of the book, with its default triangle test, on the scene and the picture that
 /// the page's example names.
-Numbers count_lab();
+void count_lab(Numbers& numbers);
 
 }  // namespace space::ch12
