@@ -199,7 +199,7 @@ class Candidate {
     bool is_lazy() const { return structure_.name == "kd-lazy"; }
 
     void turn() {
-        const std::size_t references = 1'000'000 + 12 * subject_.triangles.size();
+        const std::size_t references = 1'000'000 + 40 * subject_.triangles.size();
         const BuildOptions build{
             .threads = options_.threads,
             .limits = {.references = references, .placements = effort_.most_placed}};

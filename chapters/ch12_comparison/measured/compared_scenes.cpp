@@ -21,8 +21,7 @@ bool is_from_file(const ComparedScene& scene) {
 }
 
 bool is_there(const std::string& spec) {
-    const std::filesystem::path file = spec.starts_with("graph/") ? "" : scene_file(spec);
-    return file.empty() || std::filesystem::exists(file);
+    return std::filesystem::exists(scene_file(spec));
 }
 
 }  // namespace
@@ -74,8 +73,8 @@ std::span<const ComparedStructure> compared_structures() {
         {"bsp", 20'000},
         {"bsp-first", 5'000},
         {"kd-sah", 400'000},
-        {"kd-middle", 400'000},
-        {"kd-median", 400'000},
+        {"kd-middle", 150'000},
+        {"kd-median", 150'000},
         {"kd-lazy", any_size},
         {"octree", 400'000},
         {"octree-loose", 400'000},
@@ -133,12 +132,14 @@ CompareEffort compare_effort(const Options& options) {
         return effort;
     }
     if (options.quick && !options.counts) effort.width = 32, effort.height = 24;
+    // All scenes in their smallest sizes, in their second ones ..., and those of files at last.
     for (std::size_t size = 0; size < 9; ++size)
-        for (const ComparedScene& scene : compared_scenes()) {
-            if (size >= scene.specs.size() || !is_there(scene.specs[size])) continue;
-            if (options.quick && (size > 0 || is_from_file(scene))) continue;
-            effort.blocks.emplace_back(scene.name, scene.specs[size]);
-        }
+        for (const ComparedScene& scene : compared_scenes())
+            if (size < scene.specs.size() && !is_from_file(scene) && !(options.quick && size > 0))
+                effort.blocks.emplace_back(scene.name, scene.specs[size]);
+    for (const ComparedScene& scene : compared_scenes())
+        if (is_from_file(scene) && !options.quick && is_there(scene.specs.front()))
+            effort.blocks.emplace_back(scene.name, scene.specs.front());
     return effort;
 }
 
