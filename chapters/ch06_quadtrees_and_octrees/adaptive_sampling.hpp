@@ -192,8 +192,7 @@ class AdaptiveSampler {
                         judge(leaf);
                     }
         std::ranges::sort(uneven);
-        const auto repeated = std::ranges::unique(uneven);
-        uneven.erase(repeated.begin(), repeated.end());
+        uneven.erase(std::unique(uneven.begin(), uneven.end()), uneven.end());
         return uneven;
     }
     // [uneven]

@@ -117,15 +117,17 @@ class BvhBins {
 };
 // [bvh_bins]
 
+/// Costs, limits and bins.
+struct BinnedConfig {
+    BvhCosts costs = {};
+    std::size_t max_leaf_size = 8;  ///< larger ranges are cut even where that does not pay
+    unsigned max_depth = 64;        ///< beyond it ranges are halved
+    std::size_t bins = 16;          ///< along each axis, at most BvhBins::most
+};
+
 /// Cuts where that lowers the expected cost of a ray, between the bins where it does so most.
 struct BinnedBuilder {
-    /// Costs, limits and bins.
-    struct Config {
-        BvhCosts costs = {};
-        std::size_t max_leaf_size = 8;  ///< larger ranges are cut even where that does not pay
-        unsigned max_depth = 64;        ///< beyond it ranges are halved
-        std::size_t bins = 16;          ///< along each axis, at most BvhBins::most
-    };
+    using Config = BinnedConfig;
 
     // [binned_build]
     template <int D = 3, class Observer = NoObserver>

@@ -21,17 +21,19 @@
 
 namespace space {
 
+/// Costs, limits, and how far neighbours are sought.
+struct BottomUpConfig {
+    BvhCosts costs = {};
+    std::size_t max_leaf_size = 8;  ///< nodes are merged into leaves where that pays
+    std::uint32_t radius = 16;      ///< how many places to each side neighbours are looked for
+    /// From then on each two that stand side by side are merged. Some 40 rounds are enough
+    /// where each merges a fair part; a scene may be made so that it takes one for each node.
+    unsigned max_rounds = 128;
+};
+
 /// Rounds of looking for neighbours and merging, until one node is left.
 struct BottomUpBuilder {
-    /// Costs, limits, and how far neighbours are sought.
-    struct Config {
-        BvhCosts costs = {};
-        std::size_t max_leaf_size = 8;  ///< nodes are merged into leaves where that pays
-        std::uint32_t radius = 16;      ///< how many places to each side neighbours are looked for
-        /// From then on each two that stand side by side are merged. Some 40 rounds are enough
-        /// where each merges a fair part; a scene may be made so that it takes one for each node.
-        unsigned max_rounds = 128;
-    };
+    using Config = BottomUpConfig;
     /// Event: two nodes become the children of one with this box.
     template <int D>
     struct Merged {

@@ -32,13 +32,15 @@ BvhCut<D> halved(std::span<BvhReference<D>> range) {
 }
 // [halved]
 
+/// Limits; costs change no cut.
+struct MedianConfig {
+    BvhCosts costs = {};  ///< by which the tree's cost is told; the builder asks for none
+    std::size_t max_leaf_size = 4;
+};
+
 /// Halves until leaves are small enough: never deeper than log2 n, rounded up, whatever is built.
 struct MedianBuilder {
-    /// Limits; costs change no cut.
-    struct Config {
-        BvhCosts costs = {};  ///< by which the tree's cost is told; the builder asks for none
-        std::size_t max_leaf_size = 4;
-    };
+    using Config = MedianConfig;
 
     template <int D = 3, class Observer = NoObserver>
     static BvhNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {},

@@ -16,15 +16,17 @@
 
 namespace space {
 
+/// Limits; costs change no cut.
+struct MiddleConfig {
+    BvhCosts costs = {};  ///< by which the tree's cost is told; the builder asks for none
+    std::size_t max_leaf_size = 4;
+    unsigned max_depth = 64;  ///< beyond it ranges are halved
+};
+
 /// A plane in the middle of the box around the boxes' middles, across its longest axis; each
 /// reference goes to the side of its own middle. Where all are on one side, half of them to each.
 struct MiddleBuilder {
-    /// Limits; costs change no cut.
-    struct Config {
-        BvhCosts costs = {};  ///< by which the tree's cost is told; the builder asks for none
-        std::size_t max_leaf_size = 4;
-        unsigned max_depth = 64;  ///< beyond it ranges are halved
-    };
+    using Config = MiddleConfig;
 
     // [middle_build]
     template <int D = 3, class Observer = NoObserver>

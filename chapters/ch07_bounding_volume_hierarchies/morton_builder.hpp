@@ -16,8 +16,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,20 +45,25 @@ template <class CommonPrefix>
 std::uint32_t prefix_split(std::uint32_t first, std::uint32_t last,
                            const CommonPrefix& common_prefix) {
     const int of_all = common_prefix(first, last - 1);
-    const auto later = std::views::iota(first + 1, last);
-    return *std::ranges::partition_point(
-        later, [&](std::uint32_t key) { return common_prefix(first, key) > of_all; });
+    std::uint32_t before = first, cut = last - 1;  // the last key has of_all in common, no more
+    while (cut - before > 1) {
+        const std::uint32_t middle = std::midpoint(before, cut);
+        (common_prefix(first, middle) > of_all ? before : cut) = middle;
+    }
+    return cut;
 }
 // [prefix_split]
+
+/// Limits; costs change no cut.
+struct MortonConfig {
+    BvhCosts costs = {};  ///< by which the tree's cost is told; the builder asks for none
+    std::size_t max_leaf_size = 2;
+};
 
 /// The codes have 63 bits in space and 62 in the plane, and places 32: the tree is at most as deep
 /// as both have together.
 struct MortonBuilder {
-    /// Limits; costs change no cut.
-    struct Config {
-        BvhCosts costs = {};  ///< by which the tree's cost is told; the builder asks for none
-        std::size_t max_leaf_size = 2;
-    };
+    using Config = MortonConfig;
 
     // [morton_build]
     template <int D = 3, class Observer = NoObserver>

@@ -167,16 +167,18 @@ class BvhReinsertion {
     std::vector<Place> waiting_;          ///< of a search, kept for its memory
 };
 
+/// Costs, limits, how much a round tries, and when to end.
+struct OptimisedConfig {
+    BvhCosts costs = {};
+    std::size_t max_leaf_size = 8;  ///< nodes are merged into leaves where that pays
+    double share = 0.3;             ///< of the nodes, the largest, that a round tries to move
+    double min_gain = 0.01;         ///< the share of the cost below which a round is the last
+    unsigned max_rounds = 8;
+};
+
 /// Reinsertion over a binned tree, round after round.
 struct OptimisedBuilder {
-    /// Costs, limits, how much a round tries, and when to end.
-    struct Config {
-        BvhCosts costs = {};
-        std::size_t max_leaf_size = 8;  ///< nodes are merged into leaves where that pays
-        double share = 0.3;             ///< of the nodes, the largest, that a round tries to move
-        double min_gain = 0.01;         ///< the share of the cost below which a round is the last
-        unsigned max_rounds = 8;
-    };
+    using Config = OptimisedConfig;
 
     // [optimised_build]
     template <int D = 3, class Observer = NoObserver>

@@ -130,17 +130,19 @@ class OverBsp {
     BvhNodes<D> tree_;
 };
 
+/// Costs, and how the BSP tree is built.
+struct OverBspConfig {
+    BvhCosts costs = {};
+    std::size_t max_leaf_size = 8;  ///< nodes are merged into leaves where that pays
+    /// Its max_fragments bounds the references. Sides are decided exactly whatever its grade:
+    /// only then do a polygon's fragments cover it.
+    BspConfig bsp = {};
+};
+
 /// The builder. Polygons without extent are in no BSP tree, and so not in this one: no ray hits
 /// them.
 struct OverBspBuilder {
-    /// Costs, and how the BSP tree is built.
-    struct Config {
-        BvhCosts costs = {};
-        std::size_t max_leaf_size = 8;  ///< nodes are merged into leaves where that pays
-        /// Its max_fragments bounds the references. Sides are decided exactly whatever its grade:
-        /// only then do a polygon's fragments cover it.
-        BspConfig bsp = {};
-    };
+    using Config = OverBspConfig;
 
     /// @throws LimitError where the BSP tree outgrows the limits of config.bsp
     template <int D = 3, class Observer = NoObserver>

@@ -123,14 +123,16 @@ class SahSweep {
     std::vector<BvhReference<D>> second_;  ///< while ranges are parted
 };
 
+/// Costs and limits.
+struct SweepConfig {
+    BvhCosts costs = {};
+    std::size_t max_leaf_size = 8;  ///< larger ranges are cut even where that does not pay
+    unsigned max_depth = 64;        ///< beyond it ranges are halved
+};
+
 /// Cuts where that lowers the expected cost of a ray, at the place where it does so most.
 struct SweepBuilder {
-    /// Costs and limits.
-    struct Config {
-        BvhCosts costs = {};
-        std::size_t max_leaf_size = 8;  ///< larger ranges are cut even where that does not pay
-        unsigned max_depth = 64;        ///< beyond it ranges are halved
-    };
+    using Config = SweepConfig;
 
     // [sweep_build]
     template <int D = 3, class Observer = NoObserver>

@@ -14,12 +14,14 @@
 
 namespace space {
 
+/// The sequential builder's, and how many threads.
+struct AsymmetricConfig : BinnedBuilder::Config {
+    unsigned threads = 1;
+};
+
 /// Good where one side is nearly all, and the same one at each level.
 struct AsymmetricBuilder {
-    /// The sequential builder's, and how many threads.
-    struct Config : BinnedBuilder::Config {
-        unsigned threads = 1;
-    };
+    using Config = AsymmetricConfig;
 
     // [asymmetric]
     /// Which side it is the root's cut decides, for all cuts: the one with more triangles.

@@ -28,12 +28,14 @@
 
 namespace space {
 
+/// The sequential builder's, what threads share, and how many there are.
+struct ParallelMortonConfig : MortonBuilder::Config, StealingSizes {
+    unsigned threads = 1;
+};
+
 /// The tree of MortonBuilder, node for node, by any number of threads.
 struct ParallelMortonBuilder {
-    /// The sequential builder's, what threads share, and how many there are.
-    struct Config : MortonBuilder::Config, StealingSizes {
-        unsigned threads = 1;
-    };
+    using Config = ParallelMortonConfig;
 
     template <int D = 3, class Observer = NoObserver>
     static BvhNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {},

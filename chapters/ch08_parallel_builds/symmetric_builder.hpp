@@ -15,12 +15,14 @@
 
 namespace space {
 
+/// The sequential builder's, and how many threads.
+struct SymmetricConfig : BinnedBuilder::Config {
+    unsigned threads = 1;
+};
+
 /// Good where cuts halve the work; whatever the sides' sizes, they get as many threads.
 struct SymmetricBuilder {
-    /// The sequential builder's, and how many threads.
-    struct Config : BinnedBuilder::Config {
-        unsigned threads = 1;
-    };
+    using Config = SymmetricConfig;
 
     // [symmetric]
     /// One of the budget is the thread that is started here.

@@ -23,12 +23,14 @@
 
 namespace space {
 
+/// The sequential builder's, what threads share, and how many there are.
+struct WorkStealingConfig : BinnedBuilder::Config, StealingSizes {
+    unsigned threads = 1;
+};
+
 /// The tree of BinnedBuilder, node for node, by any number of threads.
 struct WorkStealingBuilder {
-    /// The sequential builder's, what threads share, and how many there are.
-    struct Config : BinnedBuilder::Config, StealingSizes {
-        unsigned threads = 1;
-    };
+    using Config = WorkStealingConfig;
 
     template <int D = 3, class Observer = NoObserver>
     static BvhNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {},

@@ -146,14 +146,16 @@ class WideBvh {
 template <TriangleTest Test = FilteredExact>
 using FastBvh = WideBvh<8, QuickBuilder, Test>;
 
+/// Of the two builders, one after the other.
+struct HighQualityConfig {
+    SpatialSplitConfig splits{.costs = {0.0, 1.0}, .max_leaf_size = 1};
+    OptimisedBuilder::Config moves{.max_leaf_size = 1};
+};
+
 /// A tree for rays, however long it takes to build: spatial splits, then subtrees put back where
 /// they cost least.
 struct HighQualityBuilder {
-    /// Of the two builders, one after the other.
-    struct Config {
-        SpatialSplitConfig splits{.costs = {0.0, 1.0}, .max_leaf_size = 1};
-        OptimisedBuilder::Config moves{.max_leaf_size = 1};
-    };
+    using Config = HighQualityConfig;
     template <int D = 3>
     static BvhNodes<D> build(std::span<const Simplex<D>> polygons, const Config& config = {}) {
         return OptimisedBuilder::improved<D>(SpatialSplitBuilder::build<D>(polygons, config.splits),

@@ -16,6 +16,9 @@ if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LE
 endif()
 set(shadow_in_unity -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 set(guesses -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)  # what a search for a temporary name returns
+    list(APPEND guesses -Wno-dangling-reference)
+endif()
 add_library(book_flags INTERFACE)
 target_compile_features(book_flags INTERFACE cxx_std_20)
 target_compile_options(book_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
