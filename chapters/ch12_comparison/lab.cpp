@@ -1,14 +1,15 @@
 #include "chapters/ch12_comparison/lab.hpp"
 
-#include "chapters/ch09_instancing_and_motion/instance_file.hpp"
-#include "chapters/ch09_instancing_and_motion/nested_scenes.hpp"
 #include "chapters/ch12_comparison/lab_options.hpp"
+#include "chapters/ch12_comparison/lab_pictures.hpp"
 #include "chapters/ch12_comparison/lab_report.hpp"
+#include "chapters/ch12_comparison/lab_subject.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
+#include "common/program/image.hpp"
+#include "common/program/progress.hpp"
 #include "common/program/report.hpp"
 #include "common/scene.hpp"
-#include "common/scenes/shapes.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,91 +39,6 @@ std::string camera_text(const Camera& camera) {
                        fov);
 }
 
-Scene load(const LabOptions& options) {
-    if (options.mesh.empty() && options.common.scene.empty())
-        throw usage_error("give --mesh FILE, --scene NAME or --instances FILE");
-    if (options.mesh.empty()) return make_scene(options.common.scene, options.common.seed);
-    Scene scene;
-    scene.name = options.mesh.stem().string();
-    scene.mesh = load_mesh(options.mesh);
-    frame_mesh(scene);
-    return scene;
-}
-
-/// Those of the points that lie farthest out, in 26 directions.
-std::vector<Double3> farthest(std::span<const Double3> points) {
-    std::vector<Double3> kept;
-    for (int i = 0; i < 27 && !points.empty(); ++i) {
-        const Double3 direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-        kept.push_back(*std::ranges::max_element(
-            points, {}, [&](const Double3& p) { return glm::dot(p, direction); }));
-    }
-    return kept;
-}
-
-/// The box of what it holds, nearly: from below, each object's farthest points stand for it. (Boxes
-/// of turned boxes would do for all but a picture: they grow with every level.)
-Aabb box_around(const SceneGraph& graph) {
-    std::vector<std::vector<Double3>> outline(graph.objects().size());
-    for (const std::uint32_t i : graph.from_below()) {
-        std::vector<Double3> points;
-        for (const Triangle& triangle : graph.object(i).triangles)
-            if (!box_if_finite<3>(triangle).is_empty())
-                for (int corner = 0; corner < 3; ++corner) points.emplace_back(triangle[corner]);
-        for (const Instance& instance : graph.object(i).instances)
-            for (const Double3& point : outline[instance.object])
-                points.push_back(instance.to_parent.point(point));
-        outline[i] = farthest(points);
-    }
-    Aabb box;
-    for (const Double3& point : outline[graph.root()])
-        if (is_finite<3>(Point3(point))) box.extend(Point3(point));
-    return box;
-}
-
-/// What is asked, as the options have it.
-struct Subject {
-    Scene scene;  ///< of a graph: name and camera, and a box that it fills
-    std::optional<SceneGraph> graph = {};
-    std::vector<Triangle> triangles = {};
-    std::size_t degenerate = 0;
-
-    Geometry geometry() const { return {triangles, graph ? &*graph : nullptr}; }
-    Triangle triangle(std::uint64_t i) const { return graph ? graph->triangle(i) : triangles[i]; }
-};
-
-Subject subject_of(const LabOptions& options) {
-    if (options.instances.empty()) {
-        Subject subject{load(options)};
-        subject.triangles = subject.scene.mesh.triangles();
-        subject.degenerate = count_degenerate(subject.triangles);
-        return subject;
-    }
-    Subject subject;
-    const bool from_file = options.instances_are_in_file();
-    InstanceFile file = from_file ? load_instances(options.instances)
-                                  : InstanceFile{make_nested_scene(options.instances), {}};
-    subject.graph = std::move(file.graph);
-    const std::uint64_t count = subject.graph->triangle_count();
-    if (options.flatten) {
-        if (count > options.build.limits.references)
-            throw usage_error(fmt::format("--flatten: {} triangles, more than --max-references {}",
-                                          count, options.build.limits.references));
-        subject.triangles = flatten(*subject.graph);
-        subject.degenerate = count_degenerate(subject.triangles);
-    }
-    const Aabb around = box_around(*subject.graph);
-    Scene& scene = subject.scene;
-    scene.name =
-        from_file ? std::filesystem::path(options.instances).stem().string() : options.instances;
-    if (!around.is_empty()) {
-        scene.mesh = box(Double3(around.min), Double3(around.max));
-        frame_mesh(scene);
-    }
-    scene.mesh.remarks = std::move(file.remarks);
-    return subject;
-}
-
 /// A peer has one test, its own.
 Choice choose(const Structure& structure, const std::string& triangle_test) {
     for (const StructureVariant& variant : structure.variants)
@@ -130,6 +47,21 @@ Choice choose(const Structure& structure, const std::string& triangle_test) {
     throw usage_error(
         fmt::format("--triangle-test {}: {} has no such test (see --triangle-test list)",
                     triangle_test, structure.name));
+}
+
+/// Asked of the structure over no triangle, where it takes that; later it may give up, too.
+void check_heat_is_told(const Choice& choice, const LabOptions& options) {
+    BuiltStructure built;
+    try {
+        built = choice.variant->build_from_triangles({}, options.build);
+    } catch (const std::exception&) {
+        return;
+    }
+    const std::string_view name = choice.structure->name;
+    if (!built.count)
+        throw usage_error(fmt::format("--heatmap: {} does not tell what its rays do", name));
+    if (options.heatmap_of == HeatOf::nodes && !built.shape().nodes)
+        throw usage_error(fmt::format("--heatmap: {} has no nodes: add --heatmap-of tests", name));
 }
 
 std::vector<Choice> choose(std::span<const Structure> structures, const LabOptions& options) {
@@ -158,8 +90,13 @@ std::vector<Choice> choose(std::span<const Structure> structures, const LabOptio
         throw usage_error(fmt::format(
             "--against {}: it is none of the structures that are measured{}", options.against,
             has_peers(structures) ? "" : std::string("; ") + no_peers));
-    if (!options.hits.empty() && chosen.size() != 1)
-        throw usage_error("--hits needs exactly one structure");
+    const std::pair<const char*, bool> asked[] = {{"--hits", !options.hits.empty()},
+                                                  {"--heatmap", !options.heatmap.empty()},
+                                                  {"--picture", !options.picture.empty()}};
+    for (const auto& [option, is_asked] : asked)
+        if (is_asked && chosen.size() != 1)
+            throw usage_error(fmt::format("{} needs exactly one structure", option));
+    if (!options.heatmap.empty()) check_heat_is_told(chosen.front(), options);
     return chosen;
 }
 
@@ -289,8 +226,52 @@ void print_hint(const LabOptions& options, const Scene& scene,
                box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
 }
 
-void write_to(std::FILE* out, const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), out);  // run_program sees whether it could be written
+/// The bytes of --heatmap and --picture; empty for what is not asked for.
+struct Pictures {
+    std::string heat, shaded;
+};
+
+Pictures make_pictures(const BuiltStructure& built, const LabOptions& options,
+                       const Subject& subject, std::span<const Ray> rays,
+                       std::string_view structure, std::FILE* out) {
+    Pictures pictures;
+    const auto& [width, height] = std::pair(options.common.width, options.common.height);
+    if (!options.heatmap.empty()) {
+        std::vector<HitRecord> hits(rays.size());
+        Progress progress("heat map", rays.size());
+        const std::vector<std::uint64_t> values = heat_values(
+            counts_by_ray(built, {rays, hits, options.query, options.common.threads, &progress}),
+            options.heatmap_of);
+        const HeatScale scale =
+            options.heatmap_max ? heat_scale_to(options.heatmap_max) : heat_scale_of(values);
+        pictures.heat = png_bytes(heat_map(values, width, height, scale,
+                                           fmt::format("{}, {}", subject.scene.name, structure),
+                                           options.heatmap_of));
+        fmt::print(out, "heatmap {}: {}, {} in all; colours from 0 to {}\n",
+                   options.heatmap.string(), heat_name(options.heatmap_of),
+                   with_commas(std::accumulate(values.begin(), values.end(), std::uint64_t{0})),
+                   with_commas(scale.end));
+    }
+    if (!options.picture.empty()) {
+        const Surfaces surfaces{[&](std::uint64_t i) { return subject.triangle(i); },
+                                [&](std::uint64_t i) {
+                                    return subject.graph
+                                               ? Scene::default_color
+                                               : subject.scene.color(static_cast<std::uint32_t>(i));
+                                }};
+        const PixelGrid pixels(options.camera.value_or(subject.scene.camera), width, height);
+        pictures.shaded = png_bytes(
+            shaded_picture(built, pixels, subject.scene, surfaces, options.common.threads));
+    }
+    return pictures;
+}
+
+/// To the file, or to standard output where it is asked for; nowhere without a name.
+void write_data(const std::filesystem::path& file, const std::string& text) {
+    if (LabOptions::is_stdout(file))
+        std::fwrite(text.data(), 1, text.size(), stdout);  // run_program sees whether it could be
+    else if (!file.empty())
+        write_file(file, text);
 }
 
 }  // namespace
@@ -311,15 +292,20 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
     if (options.triangle_test == "list") return list_triangle_tests(structures);
     const std::vector<Choice> chosen = choose(structures, options);
     check_outputs(options);
-    std::FILE* const out = options.json_to_stdout() ? stderr : stdout;
+    std::FILE* const out = options.data_to_stdout() ? stderr : stdout;
 
     const Subject subject = subject_of(options);
     print_remarks("lab", subject.scene.mesh.remarks);
     const RaySet set = make_rays(options, subject, structures);
     print_head(subject, options.flatten, set, has_peers(structures), out);
 
-    const std::vector<Measurement> measurements =
-        measure(chosen, subject.geometry(), set.rays, options);
+    Pictures pictures;
+    std::vector<Measurement> measurements =
+        measure(chosen, subject.geometry(), set.rays, options, [&](const BuiltStructure& built) {
+            pictures = make_pictures(built, options, subject, set.rays,
+                                     chosen.front().structure->name, out);
+        });
+    if (!options.sort.empty()) sort_rows(measurements, options.sort);
     const auto against = std::find_if(measurements.begin(), measurements.end(),
                                       [&](auto& m) { return m.name() == options.against; });
     const Measurement* const reference = against == measurements.end() ? nullptr : &*against;
@@ -332,16 +318,15 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
         print_checked(measurements, checked, out);
     }
 
+    const MeshFacts facts = mesh_facts(options, subject);
     if (!options.hits.empty() && measurements.front().stands())
         write_file(options.hits, subject.graph
                                      ? hits_bytes<std::uint64_t>(measurements.front().hits)
                                      : hits_bytes<std::uint32_t>(measurements.front().hits));
-    const std::string json =
-        json_text(options, mesh_facts(options, subject), measurements, reference, checked);
-    if (options.json_to_stdout())
-        write_to(stdout, json);
-    else if (!options.json.empty())
-        write_file(options.json, json);
+    if (!pictures.heat.empty()) write_file(options.heatmap, pictures.heat);
+    if (!pictures.shaded.empty()) write_file(options.picture, pictures.shaded);
+    write_data(options.json, json_text(options, facts, measurements, reference, checked));
+    write_data(options.csv, csv_text(options, facts, measurements, reference, checked));
     const bool all_stand = std::all_of(measurements.begin(), measurements.end(),
                                        [](const Measurement& m) { return m.stands(); });
     const bool all_agree = std::all_of(checked.begin(), checked.end(),

@@ -1,6 +1,7 @@
 #include "chapters/ch12_comparison/lab_options.hpp"
 
 #include "chapters/ch09_instancing_and_motion/instance_file.hpp"
+#include "chapters/ch12_comparison/lab_report.hpp"
 #include "chapters/ch12_comparison/output_check.hpp"
 #include "common/program/error.hpp"
 #include "common/scene.hpp"
@@ -15,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace space {
 namespace {
@@ -44,6 +46,10 @@ Files
   --json   the tables as JSON: version, machine, mesh, query, against, limits, structures; null
            where a figure has no meaning. With '-' or /dev/stdout what is printed otherwise goes to
            standard error.
+  --csv    the same figures as a table: a line of names, those of --json, then one line for each
+           structure; an empty field where a figure has no meaning. Before them in each line mesh,
+           triangles and query, so that tables can be joined. '-' as for --json.
+  --heatmap, --picture  a PNG picture: a pixel for each camera ray. They need exactly one structure.
 Ratios are times divided by the other structure's times: 2 takes twice as long.
 --check compares with naive tracing by the same test, bit for bit; by another test than
 filtered-exact a difference counts only where the naive answer is the exact one. Peers (Embree,
@@ -96,9 +102,7 @@ Camera parse_camera(const std::string& text) {
 }
 
 void add_file_options(CLI::App& app, LabOptions& options) {
-    const auto named = [](const std::string& text) {
-        return text.empty() ? "give the name of a file" : std::string();
-    };
+    const auto named = [](const std::string& text) { return name_fault(text); };
     auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF");
     app.add_option("--scene", options.common.scene, "a scene by name, or 'list'")
         ->type_name("NAME[:SIZE]")
@@ -108,7 +112,10 @@ void add_file_options(CLI::App& app, LabOptions& options) {
     auto* hits = app.add_option("--hits", options.hits, "write the answers to this file");
     auto* json = app.add_option("--json", options.json,
                                 "write the measurements to this file; '-' is standard output");
-    for (CLI::Option* option : {mesh, rays, hits, json}) option->type_name("FILE")->check(named);
+    auto* csv = app.add_option("--csv", options.csv,
+                               "write the table to this file; '-' is standard output");
+    for (CLI::Option* option : {mesh, rays, hits, json, csv})
+        option->type_name("FILE")->check(named);
     auto* instances =
         app.add_option("--instances", options.instances,
                        "a scene of instances, for structures that know them: see below")
@@ -137,6 +144,47 @@ std::shared_ptr<std::optional<std::string>> add_ray_options(CLI::App& app, LabOp
     return numbers;
 }
 
+/// What shows a pixel for each camera ray.
+void add_picture_options(CLI::App& app, LabOptions& options, std::string& heat_of) {
+    const auto is_png = [](const std::string& text) { return name_fault(text, ".png"); };
+    auto* heatmap = app.add_option("--heatmap", options.heatmap,
+                                   "a picture of what each camera ray costs, with its scale");
+    auto* picture = app.add_option("--picture", options.picture,
+                                   "a shaded picture of the mesh, seen through the structure");
+    for (CLI::Option* option : {heatmap, picture})
+        option->type_name("FILE.png")
+            ->check(is_png)
+            ->excludes(app.get_option("--rays"))
+            ->excludes(app.get_option("--diffuse"));
+    add_choice(app, "--heatmap-of", {"nodes", "tests"}, heat_of,
+               "nodes visited or triangles tested");
+    app.get_option("--heatmap-of")->needs(heatmap);
+    add_whole_number(
+        app, "--heatmap-max", 1, 1'000'000'000, [&](std::uint64_t n) { options.heatmap_max = n; },
+        "where its colours end, to compare pictures; default: where 99 of 100 pixels do")
+        ->needs(heatmap);
+}
+
+/// Which structures, and the order of their rows.
+void add_structure_options(CLI::App& app, LabOptions& options, std::string& structures) {
+    app.add_option("--structure", structures,
+                   "NAME[,NAME...]; 'default' (one of each chapter and peer), 'all' or 'list'")
+        ->capture_default_str();
+    const auto named = [](const std::string& text) {
+        return text.empty() ? "give a name" : std::string();
+    };
+    app.add_option("--triangle-test", options.triangle_test,
+                   "NAME or 'list'; default: filtered-exact")
+        ->check(named);
+    app.add_option("--against", options.against,
+                   "NAME: ratios of all times to this structure's, such as embree")
+        ->check(named);
+    app.add_option("--sort", options.sort,
+                   "order the rows by this figure of --json, the best first; default: as measured")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(sort_columns()));
+}
+
 void add_build_options(CLI::App& app, BuildOptions& build) {
     constexpr auto any = std::numeric_limits<std::uint64_t>::max();
     add_whole_number(
@@ -157,18 +205,13 @@ void add_build_options(CLI::App& app, BuildOptions& build) {
 
 LabOptions parse_lab_options(int argc, char** argv) {
     LabOptions options;
-    std::string structures = "default", query = "closest";
+    std::string structures = "default", query = "closest", heat_of = "nodes";
     CLI::App app("Any structure of the book on your own mesh and rays.", "lab");
     app.footer(formats);
     add_file_options(app, options);
     const auto camera_numbers = add_ray_options(app, options);
-    app.add_option("--structure", structures,
-                   "NAME[,NAME...]; 'default' (one of each chapter and peer), 'all' or 'list'")
-        ->capture_default_str();
-    app.add_option("--triangle-test", options.triangle_test,
-                   "NAME or 'list'; default: filtered-exact");
-    app.add_option("--against", options.against,
-                   "NAME: ratios of all times to this structure's, such as embree");
+    add_picture_options(app, options, heat_of);
+    add_structure_options(app, options, structures);
     app.add_option("--query", query, "the nearest hit, or whether there is any")
         ->check(CLI::IsMember({"closest", "any"}))
         ->capture_default_str();
@@ -190,6 +233,9 @@ LabOptions parse_lab_options(int argc, char** argv) {
     if (!options.instances.empty() && options.check && !options.flatten)
         throw usage_error("--check: naive tracing needs triangles: add --flatten");
     options.query = query == "any" ? Query::any : Query::closest;
+    options.heatmap_of = heat_of == "tests" ? HeatOf::tests : HeatOf::nodes;
+    if (LabOptions::is_stdout(options.json) && LabOptions::is_stdout(options.csv))
+        throw usage_error("--json and --csv: only one can have standard output");
     if (*camera_numbers) options.camera = parse_camera(**camera_numbers);
     if (options.common.threads == 0)
         options.common.threads = std::max(1u, std::thread::hardware_concurrency());
@@ -205,13 +251,23 @@ void check_outputs(const LabOptions& options) {
         inputs.insert(inputs.end(), {options.instances, options.rays});
     }
     check_inputs_unprinted(inputs);
-    if (options.hits == "-") throw usage_error("--hits -: it needs a file");
-    if (!options.hits.empty() && !options.json.empty() && is_same_file(options.hits, options.json))
-        throw usage_error(
-            fmt::format("--hits and --json are the same file, {}", options.json.string()));
-    if (!options.hits.empty()) check_output("--hits", options.hits, inputs);
-    if (!options.json.empty() && !options.json_to_stdout())
-        check_output("--json", options.json, inputs);
+    const std::pair<std::string_view, std::filesystem::path> outputs[] = {
+        {"--hits", options.hits},
+        {"--json", options.json},
+        {"--csv", options.csv},
+        {"--heatmap", options.heatmap},
+        {"--picture", options.picture}};
+    std::vector<std::pair<std::string_view, std::filesystem::path>> files;
+    for (const auto& [option, file] : outputs) {
+        if (option == "--hits" && file == "-") throw usage_error("--hits -: it needs a file");
+        if (file.empty() || (option != "--hits" && LabOptions::is_stdout(file))) continue;
+        for (const auto& [other_option, other] : files)
+            if (is_same_file(file, other))
+                throw usage_error(fmt::format("{} and {} are the same file, {}", other_option,
+                                              option, file.string()));
+        files.emplace_back(option, file);
+    }
+    for (const auto& [option, file] : files) check_output(option, file, inputs);
 }
 
 }  // namespace space

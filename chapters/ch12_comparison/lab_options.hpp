@@ -2,11 +2,13 @@
 /// The lab's command line.
 #pragma once
 
+#include "chapters/ch12_comparison/lab_pictures.hpp"
 #include "chapters/ch12_comparison/structures.hpp"
 #include "common/camera.hpp"
 #include "common/program/options.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,13 +34,19 @@ struct LabOptions {
     int repeat = 3;
     bool packets = false;  ///< of rays, where a structure knows them
     bool check = false;
-    std::filesystem::path hits, json;
+    std::string sort;  ///< the column that orders the rows; empty: the order of --structure
+    std::filesystem::path hits, json, csv, heatmap, picture;
+    HeatOf heatmap_of = HeatOf::nodes;
+    std::uint64_t heatmap_max = 0;  ///< where its colours end; 0: where 99 of 100 pixels do
 
     bool instances_are_in_file() const {
         return instances.find_first_of("./") != std::string::npos;
     }
-    bool json_to_stdout() const {
-        return json == "-" || json == "/dev/stdout" || json == "/dev/fd/1";
+    /// Standard output is for programs: what is printed otherwise goes to standard error.
+    bool data_to_stdout() const { return is_stdout(json) || is_stdout(csv); }
+
+    static bool is_stdout(const std::filesystem::path& file) {
+        return file == "-" || file == "/dev/stdout" || file == "/dev/fd/1";
     }
 };
 

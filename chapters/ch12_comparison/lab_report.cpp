@@ -4,9 +4,12 @@
 #include "common/program/results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace space {
 namespace {
@@ -32,6 +35,14 @@ bool any_gave_up(std::span<const Measurement> measurements) {
                        [](const Measurement& m) { return !m.stands(); });
 }
 
+/// In all, where the structure tells and has nodes.
+std::optional<std::uint64_t> node_visits(const Measurement& m) {
+    return m.counts && m.shape.nodes ? std::optional(m.counts->nodes_visited) : std::nullopt;
+}
+std::optional<std::uint64_t> triangle_tests(const Measurement& m) {
+    return m.counts ? std::optional(m.counts->triangles_tested) : std::nullopt;
+}
+
 Table work_table(std::span<const Measurement> measurements, const Measurement* against) {
     std::vector<std::string> headings{"structure", "build ms",   "trace ms", "Mrays/s",
                                       "hits",      "visits/ray", "tests/ray"};
@@ -44,16 +55,16 @@ Table work_table(std::span<const Measurement> measurements, const Measurement* a
     for (const Measurement& m : measurements) {
         std::vector<std::string> cells{std::string(m.name())};
         if (m.stands()) {
-            const auto per_ray = [&](std::uint64_t total) {
-                return fmt::format("{:.2f}",
-                                   static_cast<double>(total) / static_cast<double>(m.hits.size()));
+            const auto per_ray = [&](const std::optional<std::uint64_t>& total) {
+                return total ? fmt::format("{:.2f}", static_cast<double>(*total) /
+                                                         static_cast<double>(m.hits.size()))
+                             : "-";
             };
             cells.insert(
                 cells.end(),
                 {fmt::format("{:.3f}", m.build_ms), fmt::format("{:.3f}", m.trace_ms),
                  fmt::format("{:.4f}", m.rays_per_second() * 1e-6), with_commas(m.hit_count()),
-                 m.counts && m.shape.nodes ? per_ray(m.counts->nodes_visited) : "-",
-                 m.counts ? per_ray(m.counts->triangles_tested) : "-"});
+                 per_ray(node_visits(m)), per_ray(triangle_tests(m))});
             const auto [build, trace] = ratios(m, against);
             if (against) cells.insert(cells.end(), {ratio_text(build), ratio_text(trace)});
         }
@@ -76,6 +87,41 @@ Table shape_table(std::span<const Measurement> measurements) {
     return table;
 }
 
+/// A figure that rows can be ordered by, where smaller is better.
+struct Column {
+    std::string_view name;
+    std::optional<double> (*cost)(const Measurement&);
+};
+
+template <class T>
+std::optional<double> as_double(const std::optional<T>& value) {
+    return value ? std::optional(static_cast<double>(*value)) : std::nullopt;
+}
+template <auto Field>
+std::optional<double> of_shape(const Measurement& m) {
+    return as_double(std::optional(m.shape.*Field));
+}
+template <auto Field>
+std::optional<double> of_optional(const Measurement& m) {
+    return as_double(m.shape.*Field);
+}
+
+constexpr std::array columns{
+    Column{"build_ms", [](const Measurement& m) { return std::optional(m.build_ms); }},
+    Column{"trace_ms", [](const Measurement& m) { return std::optional(m.trace_ms); }},
+    Column{"rays_per_s", [](const Measurement& m) { return std::optional(-m.rays_per_second()); }},
+    Column{"hits",
+           [](const Measurement& m) { return std::optional(-static_cast<double>(m.hit_count())); }},
+    Column{"node_visits", [](const Measurement& m) { return as_double(node_visits(m)); }},
+    Column{"triangle_tests", [](const Measurement& m) { return as_double(triangle_tests(m)); }},
+    Column{"nodes", of_optional<&TreeShape::nodes>},
+    Column{"leaves", of_optional<&TreeShape::leaves>},
+    Column{"depth", of_optional<&TreeShape::depth>},
+    Column{"references", of_shape<&TreeShape::references>},
+    Column{"bytes", of_shape<&TreeShape::bytes>},
+    Column{"sah_cost", of_optional<&TreeShape::sah_cost>},
+};
+
 Json check_json(const Measurement& m, const Checked& checked) {
     const auto unless_peer = [&](std::size_t count) {
         return m.choice.structure->is_peer ? Json(nullptr) : Json(count);
@@ -95,7 +141,6 @@ Json structure_json(const Measurement& m, const Measurement* against, const Chec
                     const LabOptions& options) {
     const auto [build_ratio, trace_ratio] = ratios(m, against);
     const auto measured = [&](const auto& value) { return m.stands() ? Json(value) : Json(); };
-    const bool visits = m.counts && m.shape.nodes;
     return {{"structure", m.name()},
             {"home", m.choice.structure->home},
             {"triangle_test", m.choice.variant->triangle_test},
@@ -114,14 +159,54 @@ Json structure_json(const Measurement& m, const Measurement* against, const Chec
             {"references", measured(m.shape.references)},
             {"bytes", measured(m.shape.bytes)},
             {"sah_cost", or_null(m.shape.sah_cost)},
-            {"node_visits", visits ? Json(m.counts->nodes_visited) : Json()},
-            {"triangle_tests", m.counts ? Json(m.counts->triangles_tested) : Json()},
+            {"node_visits", or_null(node_visits(m))},
+            {"triangle_tests", or_null(triangle_tests(m))},
             {"threads", options.common.threads},
             {"build_threads", measured(m.build_threads)},
             {"check", checked && m.stands() ? check_json(m, *checked) : Json()}};
 }
 
+Json structures_json(const LabOptions& options, std::span<const Measurement> measurements,
+                     const Measurement* against, std::span<const Checked> checked) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < measurements.size(); ++i)
+        list.push_back(structure_json(measurements[i], against,
+                                      checked.empty() ? nullptr : &checked[i], options));
+    return list;
+}
+
+/// A file's name may not be UTF-8.
+std::string text_of(const Json& value, int indent = -1) {
+    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+/// As RFC 4180 has it: quotes around what would end a field, and doubled inside.
+std::string csv_field(const Json& value) {
+    if (value.is_null()) return "";
+    std::string text = value.is_string() ? value.get<std::string>() : text_of(value);
+    if (text == "null") return "";  // a number that JSON has no name for
+    if (text.find_first_of(",\"\r\n") == text.npos) return text;
+    for (std::size_t at = 0; (at = text.find('"', at)) != text.npos; at += 2)
+        text.insert(at, 1, '"');
+    return '"' + text + '"';
+}
+
 }  // namespace
+
+std::vector<std::string> sort_columns() {
+    std::vector<std::string> names;
+    for (const Column& column : columns) names.emplace_back(column.name);
+    return names;
+}
+
+void sort_rows(std::vector<Measurement>& measurements, std::string_view name) {
+    const auto column = std::ranges::find(columns, name, &Column::name);
+    const auto place = [&](const Measurement& m) {
+        const std::optional<double> cost = m.stands() ? column->cost(m) : std::nullopt;
+        return std::pair(!cost, cost.value_or(0.0));
+    };
+    std::ranges::stable_sort(measurements, {}, place);
+}
 
 Ratios ratios(const Measurement& measurement, const Measurement* against) {
     if (!against || !against->stands() || !measurement.stands()) return {};
@@ -167,10 +252,6 @@ void print_checked(std::span<const Measurement> measurements, std::span<const Ch
 std::string json_text(const LabOptions& options, const MeshFacts& facts,
                       std::span<const Measurement> measurements, const Measurement* against,
                       std::span<const Checked> checked) {
-    Json list = Json::array();
-    for (std::size_t i = 0; i < measurements.size(); ++i)
-        list.push_back(structure_json(measurements[i], against,
-                                      checked.empty() ? nullptr : &checked[i], options));
     const Json mesh{{"name", facts.name},
                     {"file", facts.file.empty() ? Json(nullptr) : Json(facts.file)},
                     {"vertices", or_null(facts.vertices)},
@@ -186,9 +267,32 @@ std::string json_text(const LabOptions& options, const MeshFacts& facts,
                         {"query", query_name(options.query)},
                         {"against", against ? Json(against->name()) : Json()},
                         {"limits", limits},
-                        {"structures", list}};
-    // A file's name may not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+                        {"structures", structures_json(options, measurements, against, checked)}};
+    return text_of(document, 2) + '\n';
+}
+
+std::string csv_text(const LabOptions& options, const MeshFacts& facts,
+                     std::span<const Measurement> measurements, const Measurement* against,
+                     std::span<const Checked> checked) {
+    std::string text;
+    for (const Json& structure : structures_json(options, measurements, against, checked)) {
+        std::vector<std::string> names, fields;
+        const auto add = [&](const std::string& name, const Json& value) {
+            names.push_back(name);
+            fields.push_back(csv_field(value));
+        };
+        add("mesh", facts.name);
+        add("triangles", facts.triangles);
+        add("query", query_name(options.query));
+        for (const auto& [name, value] : structure.items())
+            if (name != "check") add(name, value);
+        const Json checks = options.check ? check_json(measurements.front(), {}) : Json();
+        for (const auto& [name, none] : checks.items())
+            add("check_" + name, structure["check"].is_null() ? Json() : structure["check"][name]);
+        if (text.empty()) text = fmt::format("{}\n", fmt::join(names, ","));
+        text += fmt::format("{}\n", fmt::join(fields, ","));
+    }
+    return text;
 }
 
 }  // namespace space

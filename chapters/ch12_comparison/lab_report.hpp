@@ -11,8 +11,16 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace space {
+
+/// What rows can be ordered by: names of --json.
+std::vector<std::string> sort_columns();
+/// Orders the rows of all tables by one of them, the smallest first, but the most rays per second
+/// and hits; what gave up or has no such figure stays behind. Equal rows keep their order.
+void sort_rows(std::vector<Measurement>& measurements, std::string_view column);
 
 /// Time as a multiple of another structure's; nothing where there is none to compare with.
 struct Ratios {
@@ -38,9 +46,15 @@ struct MeshFacts {
     std::optional<std::size_t> objects = {}, instances = {};  ///< of a scene graph
 };
 
-/// Everything, in the layout that chapter.dox describes; `checked` is empty without --check.
+/// Everything, in the layout that lab.dox describes; `checked` is empty without --check.
 std::string json_text(const LabOptions& options, const MeshFacts& facts,
                       std::span<const Measurement> measurements, const Measurement* against,
                       std::span<const Checked> checked);
+
+/// The structures of json_text as comma-separated values (RFC 4180), with the same names and
+/// digits.
+std::string csv_text(const LabOptions& options, const MeshFacts& facts,
+                     std::span<const Measurement> measurements, const Measurement* against,
+                     std::span<const Checked> checked);
 
 }  // namespace space

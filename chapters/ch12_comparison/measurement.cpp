@@ -80,7 +80,8 @@ std::size_t Measurement::hit_count() const {
 }
 
 std::vector<Measurement> measure(std::span<const Choice> chosen, const Geometry& geometry,
-                                 std::span<const Ray> rays, const LabOptions& options) {
+                                 std::span<const Ray> rays, const LabOptions& options,
+                                 const std::function<void(const BuiltStructure&)>& look) {
     std::vector<Measurement> measurements;
     for (const Choice& choice : chosen) measurements.push_back({.choice = choice});
     std::vector<BuiltStructure> built(chosen.size());
@@ -97,6 +98,7 @@ std::vector<Measurement> measure(std::span<const Choice> chosen, const Geometry&
         attempt(measurements[i], built[i], [&] { measurements[i].shape = built[i].shape(); });
         measurements[i].build_ms = build_ms[i];
         measurements[i].trace_ms = trace_ms[i];
+        if (measurements[i].stands()) look(built[i]);
     }
     return measurements;
 }

@@ -7,6 +7,7 @@
 #include "chapters/ch12_comparison/structures.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,8 +39,11 @@ struct Measurement {
 };
 
 /// Builds each structure and traces the rays through it, options.repeat times after a turn to warm
-/// up; times are medians. Whatever a structure throws is its reason to give up.
-std::vector<Measurement> measure(std::span<const Choice> chosen, const Geometry& geometry,
-                                 std::span<const Ray> rays, const LabOptions& options);
+/// up; times are medians. Whatever a structure throws is its reason to give up. At last calls
+/// `look` with each that stands, which is gone after that.
+std::vector<Measurement> measure(
+    std::span<const Choice> chosen, const Geometry& geometry, std::span<const Ray> rays,
+    const LabOptions& options,
+    const std::function<void(const BuiltStructure&)>& look = [](const BuiltStructure&) {});
 
 }  // namespace space

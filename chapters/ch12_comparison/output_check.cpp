@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <system_error>
 
 namespace space {
@@ -52,6 +54,14 @@ void check_output(std::string_view option, const std::filesystem::path& file,
         throw output_error(fmt::format("cannot write {}: there is no directory {}", file.string(),
                                        directory.string()));
     check_writable(file);
+}
+
+std::string name_fault(const std::string& name, std::string_view ending) {
+    if (name.empty()) return "give the name of a file";
+    std::string end = std::filesystem::path(name).extension().string();
+    std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending.empty() || end == ending ? std::string()
+                                           : fmt::format("'{}' does not end in {}", name, ending);
 }
 
 }  // namespace space

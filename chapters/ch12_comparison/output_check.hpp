@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace space {
@@ -18,5 +19,9 @@ void check_inputs_unprinted(std::span<const std::filesystem::path> inputs);
 /// (bad_output) for one that cannot be written. `option` names it.
 void check_output(std::string_view option, const std::filesystem::path& file,
                   std::span<const std::filesystem::path> inputs);
+
+/// What a name of a file lacks, for the parser of options: letters, or the ending, such as ".png",
+/// in whatever case. Empty where it lacks nothing.
+std::string name_fault(const std::string& name, std::string_view ending = "");
 
 }  // namespace space

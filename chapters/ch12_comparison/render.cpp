@@ -231,7 +231,7 @@ int run_render(std::span<const Structure> structures, int argc, char** argv) {
     fmt::print("scene   {}: {}, {} of them shine\n", lit.scene.name,
                counted(lit.triangles.size(), "triangle"), with_commas(lights.lights().size()));
     const ErasedAccelerator accelerator(
-        structure.variants.front().build({lit.triangles}, {.threads = options.common.threads}));
+        structure.variants.front().build({lit.triangles}, {.threads = options.build_threads}));
     fmt::print("method  {} over {}\n", render_method_name(options.method), structure.name);
     std::fflush(stdout);
     if (film.samples < options.samples && !end_signal) {

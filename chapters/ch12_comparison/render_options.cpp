@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <limits>
 #include <string_view>
@@ -59,20 +58,12 @@ void add_number(CLI::App& app, const std::string& name, double low, double high,
 }
 
 void add_file_options(CLI::App& app, RenderOptions& options) {
-    const auto named = [](const std::string& ending) {
-        return [ending](const std::string& text) {
-            std::string end = std::filesystem::path(text).extension().string();
-            std::ranges::transform(end, end.begin(),
-                                   [](unsigned char c) { return std::tolower(c); });
-            return end == ending ? std::string()
-                                 : fmt::format("'{}' does not end in {}", text, ending);
-        };
+    const auto named = [](std::string_view ending) {
+        return [ending](const std::string& text) { return name_fault(text, ending); };
     };
     auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF")
                      ->type_name("FILE")
-                     ->check([](const std::string& text) {
-                         return text.empty() ? "give the name of a file" : std::string();
-                     });
+                     ->check(named(""));
     app.add_option("--scene", options.common.scene, "a scene by name, or 'list'")
         ->type_name("NAME[:SIZE]")
         ->excludes(mesh);
@@ -129,6 +120,10 @@ RenderOptions parse_render_options(int argc, char** argv) {
     add_number(app, "--exposure", 1e-6, 1e6, options.exposure, "E", "of the picture");
     app.add_option("--structure", options.structure, "NAME or 'list'")->capture_default_str();
     add_common_options(app, options.common);
+    add_whole_number(
+        app, "--build-threads", 1, max_threads,
+        [&](std::uint64_t n) { options.build_threads = static_cast<unsigned>(n); },
+        "for builders that use several; default: as --threads");
     parse_command_line(app, argc, argv);
     list_lit_scenes_if_asked(options.common);
     if (options.structure == "list") return options;
@@ -138,6 +133,7 @@ RenderOptions parse_render_options(int argc, char** argv) {
                                            : RenderMethod::cache;
     if (options.common.threads == 0)
         options.common.threads = std::max(1u, std::thread::hardware_concurrency());
+    if (options.build_threads == 0) options.build_threads = options.common.threads;
     return options;
 }
 

@@ -24,6 +24,7 @@ struct RenderOptions {
     std::size_t samples = 64;  ///< a pixel
     double seconds = std::numeric_limits<double>::infinity();
     std::string structure = "fast";  ///< a name, or "list"
+    unsigned build_threads = 0;      ///< parse_render_options turns 0 into --threads
     std::size_t photons = 1'000'000;
     double accuracy = 0.3;  ///< the cache's a: records reach farther where it is larger
     double exposure = 1.0;

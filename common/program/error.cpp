@@ -2,7 +2,9 @@
 
 #include "common/limit_error.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
@@ -12,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace space {
 namespace {
@@ -35,12 +38,34 @@ std::string one_line(std::string_view text) {
 }
 
 void print_error(std::string_view name, std::string_view what) {
-    fmt::print(stderr, "{}: {}\n", name, one_line(what));
+    // Where nobody can be told, the exit code stays.
+    std::fputs(fmt::format("{}: {}\n", name, one_line(what)).c_str(), stderr);
+}
+
+/// A stream that was closed is closed for good: else the next file that is opened would get its
+/// number, and what is printed would go there.
+void keep_streams_apart() {
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(fd, F_GETFD) < 0)  // opened the wrong way round: to use it is an error
+            ::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// What the system refused, in the user's words, and the exit code.
+Error refused(const std::system_error& error) {
+    const std::string reason = error.code().message();
+    for (const auto& [stream, called] :
+         {std::pair(stdout, "standard output"), std::pair(stderr, "standard error")})
+        if (std::ferror(stream))  // fmt::print throws
+            return output_error(fmt::format("cannot write to {}: {}", called, reason));
+    if (error.code() == std::errc::resource_unavailable_try_again)
+        return {ExitCode::internal, "no more threads can be had (see --threads): " + reason};
+    return {ExitCode::internal, std::string("internal error: ") + error.what()};
 }
 
 }  // namespace
 
 int run_program(std::string_view name, int (*body)(int, char**), int argc, char** argv) {
+    keep_streams_apart();
     try {
         return printed(body(argc, argv));
     } catch (const Error& error) {
@@ -50,10 +75,9 @@ int run_program(std::string_view name, int (*body)(int, char**), int argc, char*
         print_error(name, error.what());
         return static_cast<int>(ExitCode::usage);
     } catch (const std::system_error& error) {
-        const bool printing = std::ferror(stdout) != 0;  // fmt::print throws
-        print_error(name, printing ? "cannot write to standard output: " + error.code().message()
-                                   : std::string("internal error: ") + error.what());
-        if (printing) return static_cast<int>(ExitCode::bad_output);
+        const Error told = refused(error);
+        print_error(name, told.what());
+        return static_cast<int>(told.code());
     } catch (const std::bad_alloc&) {
         print_error(name, "out of memory");
     } catch (const std::exception& error) {

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace space {
@@ -38,14 +39,14 @@ std::filesystem::path target_of(const std::filesystem::path& file) {
     return std::filesystem::canonical(file);
 }
 
-/// The file beside the target that is to take its name; what is left of it goes with this object.
-struct Part {
-    std::string name;
-    Descriptor descriptor{-1};
-
+/// What is to take the target's name. Where the file system knows files without a name it has none
+/// until it is whole, so that nothing is left of a program that is killed; elsewhere it stands
+/// beside the target from the start. What is left of it goes with this object.
+class Part {
+  public:
     /// Makes the directory if it is not there.
     explicit Part(const std::filesystem::path& file)
-        : name(fmt::format("{}.{}.part", file.string(), ::getpid())) {
+        : file_(file), name_(fmt::format("{}.{}.part", file.string(), ::getpid())) {
         std::error_code error;
         const auto directory = file.parent_path();
         if (!directory.empty()) std::filesystem::create_directories(directory, error);
@@ -55,12 +56,38 @@ struct Part {
         if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
             throw output_error(fmt::format("cannot write {}: not a regular file",
                                            file.string()));  // renaming would replace it
-        descriptor.fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        if (descriptor.fd < 0) throw cannot_write(file);
+        if (::access("/proc/self/fd", X_OK) == 0)
+            descriptor_.fd = ::open(directory.empty() ? "." : directory.c_str(),
+                                    O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+        is_named_ = descriptor_.fd < 0;
+        if (is_named_)
+            descriptor_.fd = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (descriptor_.fd < 0) throw cannot_write(file);
     }
-    ~Part() { ::unlink(name.c_str()); }
+    ~Part() { ::unlink(name_.c_str()); }
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
+
+    int descriptor() const { return descriptor_.fd; }
+
+    /// Makes the name that will be the target's.
+    void name() {
+        if (std::exchange(is_named_, true)) return;
+        ::unlink(name_.c_str());  // of a program that was killed, and had this one's number
+        const std::string place = fmt::format("/proc/self/fd/{}", descriptor_.fd);
+        if (::linkat(AT_FDCWD, place.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) != 0)
+            throw cannot_write(file_);
+    }
+    void take_place() {
+        name();
+        if (::rename(name_.c_str(), file_.c_str()) != 0) throw cannot_write(file_);
+    }
+
+  private:
+    std::filesystem::path file_;
+    std::string name_;
+    Descriptor descriptor_{-1};
+    bool is_named_ = false;
 };
 
 /// The directories above a file that are not there yet: once made they go with this object, if they
@@ -108,24 +135,25 @@ std::string read_file(const std::filesystem::path& file) {
 
 void write_file(const std::filesystem::path& link, std::string_view content) {
     const std::filesystem::path file = target_of(link);
-    const Part part(file);
+    Part part(file);
     std::size_t size = 0;
     while (size < content.size()) {
         const ssize_t count =
-            ::write(part.descriptor.fd, content.data() + size, content.size() - size);
+            ::write(part.descriptor(), content.data() + size, content.size() - size);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) throw cannot_write(file);
         size += static_cast<std::size_t>(count);
     }
-    if (::fsync(part.descriptor.fd) != 0)
+    if (::fsync(part.descriptor()) != 0)
         throw cannot_write(file);  // a full disk may show only here
-    if (::rename(part.name.c_str(), file.c_str()) != 0) throw cannot_write(file);
+    part.take_place();
 }
 
 void check_writable(const std::filesystem::path& link) {
     const std::filesystem::path file = target_of(link);
     const MissingDirectories made(file);
-    const Part part(file);
+    Part part(file);
+    part.name();
 }
 
 std::filesystem::path book_root() {

@@ -141,6 +141,9 @@ Options parse_options(int argc, char** argv, const ProgramInfo& program,
         ->excludes("--small");
     app.add_option("--out", options.out,
                    "directory for pictures, charts, tables, numbers and results")
+        ->check([](const std::string& text) {
+            return text.empty() ? "give the name of a directory" : std::string();
+        })
         ->capture_default_str();
     app.add_option("--figure", options.figure, "make one figure, or 'all', into --out and end");
     add_common_options(app, options);

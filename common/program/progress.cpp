@@ -64,15 +64,16 @@ void Progress::draw(std::size_t done, double seconds) {
     const std::string left =
         part > 0.0 ? fmt::format(", {} left", duration_text(seconds * (1.0 / part - 1.0))) : "";
     if (!on_terminal()) {
-        fmt::print(stderr, "{}: {} %{}\n", job_, percent, left);
+        std::fputs(fmt::format("{}: {} %{}\n", job_, percent, left).c_str(), stderr);
         return;
     }
     constexpr std::size_t cells = 30;
     const std::size_t full = std::min(cells, percent * cells / 100);
     const bool color = std::getenv("NO_COLOR") == nullptr;
-    fmt::print(stderr, "\r\033[K{} {}{}{}{} {} %{}", job_, color ? "\033[34m" : "",
-               std::string(full, '#'), color ? "\033[0m" : "", std::string(cells - full, '.'),
-               percent, left);
+    const std::string bar = fmt::format("\r\033[K{} {}{}{}{} {} %{}", job_, color ? "\033[34m" : "",
+                                        std::string(full, '#'), color ? "\033[0m" : "",
+                                        std::string(cells - full, '.'), percent, left);
+    std::fputs(bar.c_str(), stderr);  // a job goes on where nobody can be told
     std::fflush(stderr);
 }
 

@@ -83,7 +83,8 @@ std::vector<std::string> TimedTable::joined(std::vector<std::string> counts,
 }
 
 void print_remarks(std::string_view program, std::span<const std::string> remarks) {
-    for (const std::string& remark : remarks) fmt::print(stderr, "{}: note: {}\n", program, remark);
+    for (const std::string& remark : remarks)
+        std::fputs(fmt::format("{}: note: {}\n", program, remark).c_str(), stderr);
 }
 
 void print_heading(const std::string& text) {

@@ -36,6 +36,8 @@ ends 2 'help: there is no command nonsense' help nonsense
 ends 2 'nonsense: there is no such command' nonsense
 ends 2 'chapter 99: there is none; there are: 1' run 99
 ends 2 'chapter x: there is none' run x
+ends 2 'there is none' run $'\e[31m\n'
+ends 2 '^book: .{1990,2000}$' "$(printf 'x%.0s' {1..100000})"
 ends 2 'unknown option --fast' run --fast
 ends 2 'give a chapter' try
 ends 2 'chapter 99: there is none' try 99
