@@ -4,6 +4,7 @@
 #pragma once
 
 #include "chapters/ch03_bsp_trees/splitter_choice.hpp"
+#include "common/geometry.hpp"
 #include "common/limit_error.hpp"
 #include "common/observer.hpp"
 #include "common/zero_area.hpp"
@@ -38,8 +39,8 @@ class BspBuilder {
         const Fragment<D>&whole, &front, &back;
     };
 
-    /// Polygons without extent (equal corners in the plane, zero area in space) are left out: they
-    /// hide nothing.
+    /// Polygons without extent (equal corners in the plane, zero area in space) are left out, and
+    /// those whose coordinates are not all finite: they hide nothing.
     /// @throws LimitError where the tree would have more than config.max_fragments fragments, or
     /// place more than config.max_placed
     template <class Observer = NoObserver>
@@ -128,6 +129,7 @@ class BspBuilder {
     }
 
     static bool spans_plane(const Simplex<D>& polygon) {
+        if (box_if_finite<D>(polygon).is_empty()) return false;
         if constexpr (D == 2)
             return polygon.a != polygon.b;
         else

@@ -52,7 +52,8 @@ double thickness_of_planes(std::span<const Simplex<D>> polygons, const BspConfig
     for (const Simplex<D>& polygon : polygons)
         for (int corner = 0; corner < D; ++corner)
             for (int axis = 0; axis < D; ++axis)
-                largest = std::max(largest, std::abs(polygon[corner][axis]));
+                if (std::isfinite(polygon[corner][axis]))
+                    largest = std::max(largest, std::abs(polygon[corner][axis]));
     const bool floats = config.grade == Grade::thick_float || config.grade == Grade::ordered_float;
     const double roundoff = floats ? 0x1p-24 : double_roundoff;
     return config.thickness_in_roundings * roundoff * static_cast<double>(largest);

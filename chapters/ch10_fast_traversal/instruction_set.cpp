@@ -4,12 +4,10 @@
 #include "chapters/ch08_parallel_builds/this_processor.hpp"
 #include "common/program/error.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <span>
 #include <string>
 
 namespace space {
@@ -23,6 +21,12 @@ bool has_bit_instructions(const CpuidLeaves& cpu) {
     const bool popcnt = bits_of(one.ecx, 23, 23), bmi1 = bits_of(seven.ebx, 3, 3),
                bmi2 = bits_of(seven.ebx, 8, 8), lzcnt = bits_of(extended.ecx, 5, 5);
     return popcnt && bmi1 && bmi2 && lzcnt;
+}
+
+std::string listed(std::span<const std::string_view> names) {
+    std::string list;
+    for (const std::string_view name : names) list.append(list.empty() ? "" : ", ").append(name);
+    return list;
 }
 
 }  // namespace
@@ -58,15 +62,13 @@ InstructionSet instruction_set_named(std::string_view name) {
     const std::vector<InstructionSet>& usable = usable_instruction_sets();
     if (name.empty()) return usable.back();
     const auto place = std::ranges::find(instruction_set_names, name);
+    const std::string asked = "BOOK_ISA=" + std::string(name);
     if (place == instruction_set_names.end())
-        throw usage_error(fmt::format("BOOK_ISA={}: not one of {}", name,
-                                      fmt::join(instruction_set_names, ", ")));
+        throw usage_error(asked + ": not one of " + listed(instruction_set_names));
     const auto set = static_cast<InstructionSet>(place - instruction_set_names.begin());
     if (std::ranges::find(usable, set) == usable.end())
-        throw usage_error(fmt::format(
-            "BOOK_ISA={}: this processor has not got it; it has {}", name,
-            fmt::join(instruction_set_names.begin(),
-                      instruction_set_names.begin() + std::ptrdiff_t(usable.size()), ", ")));
+        throw usage_error(asked + ": this processor has not got it; it has " +
+                          listed(std::span(instruction_set_names).first(usable.size())));
     return set;
 }
 

@@ -6,9 +6,8 @@ set(BOOK_SANITIZE "" CACHE STRING "sanitizers for everything, as in -fsanitize=:
 # Warnings are errors in our code where the compiler is one of those that tests have seen, but not in what a reader writes
 # (a target with the property BOOK_READERS_OWN); other people's headers are system headers. GCC's guesses after inlining, at
 # where a pointer leads and what has a value, are left out: they find faults in its own std::string, more or fewer by the
-# length of a constant. Floating point is never contracted or reordered: exact signs and equal results on every machine
-# depend on it. GCC 12 at -O2 also drops roundings to float where its SLP vectoriser meets double -> float -> double
-# (tests/house/rounding.cpp), so it has to do without.
+# length of a constant. Floating point is never contracted or reordered (Structures.cmake): exact signs and equal results on
+# every machine depend on it.
 set(errors "")
 if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15) OR
    (CMAKE_CXX_COMPILER_ID STREQUAL Clang AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15))
@@ -26,7 +25,7 @@ target_compile_options(book_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -W
                                             "$<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:${shadow_in_unity}>"
                                             $<$<NOT:$<BOOL:$<TARGET_PROPERTY:BOOK_READERS_OWN>>>:${errors}>
                                             "$<$<CXX_COMPILER_ID:GNU>:${guesses}>"
-                                            -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+                                            ${SPACE_ARITHMETIC}
                                             # GCC looks through all precompiled headers each time it collects garbage
                                             $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 target_include_directories(book_flags INTERFACE ${PROJECT_SOURCE_DIR})
