@@ -6,6 +6,7 @@
 #include "tests/suite/accelerator_suite.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace space;
@@ -160,6 +161,17 @@ TEST_CASE("thick planes lose hits as they grow thicker, exact ones none") {
     };
     CHECK(wrong_rays(Grade::thick_float) > 0);
     CHECK(wrong_rays(Grade::exact) == 0);
+}
+
+TEST_CASE("polygons with a coordinate that is infinite or no number are left out") {
+    for (const float bad : {infinity, -infinity, std::nanf("")})
+        for (const Grade grade : {Grade::ordered_double, Grade::exact}) {
+            std::vector<Triangle> triangles = soup(20, 0.5f, 3);
+            const std::size_t fragments =
+                Bsp<>::build(triangles, {.grade = grade}).shape().references;
+            triangles.push_back({{bad, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}});
+            CHECK(Bsp<>::build(triangles, {.grade = grade}).shape().references == fragments);
+        }
 }
 
 TEST_CASE("a tree that would have more fragments than allowed is refused with one line") {
