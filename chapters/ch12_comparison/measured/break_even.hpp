@@ -72,7 +72,8 @@ inline std::vector<CheapestSpan> lower_envelope(std::span<const CostLine> lines,
             end = crossing;
             next = i;
         }
-        if (end > from) spans.push_back({line, from, end});
+        // A line that ends where it begins has been the lowest for this one number.
+        if (end > from || next == line) spans.push_back({line, from, end});
         if (end >= to) return spans;
         from = next != line ? end : std::nextafter(end, to);
         line = next != line ? next : cheapest(lines, from);

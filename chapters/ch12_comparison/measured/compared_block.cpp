@@ -280,7 +280,7 @@ class Candidate {
         Questions one;
         one.rays.front().push_back(questions().rays.front()[middle]);
         make(one);
-        make(questions().part(50, 100));
+        make(questions().part(middle % 100, 100));
         make(questions());
     }
 

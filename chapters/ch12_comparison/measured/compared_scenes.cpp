@@ -94,7 +94,7 @@ std::span<const ComparedStructure> compared_structures() {
         {"fast-scalar", 400'000},
         {"fast-4", 400'000},
         {"fast-compressed", any_size},
-        {"fast-hq", 1'100'000},
+        {"fast-hq", 900'000},
         {"embree", any_size},
         {"embree-high", any_size},
         {"cgal", 400'000},

@@ -45,10 +45,10 @@ struct NodesMade {
 
 /// One structure on one scene of one size.
 struct ComparedRow {
-    std::string scene;  ///< "soup"
-    std::string spec;   ///< what makes it again: "soup:1000"; "graph/jacks:1", a nested scene
+    std::string scene = {};  ///< "soup"
+    std::string spec = {};   ///< what makes it again: "soup:1000"; "graph/jacks:1", a nested scene
     std::uint64_t triangles = 0;
-    std::string structure, home;  ///< as the lab has them
+    std::string structure = {}, home = {};  ///< as the lab has them
     bool is_peer = false;
     unsigned build_threads = 1;
     double build_ms = unknown;
@@ -75,11 +75,11 @@ struct ComparedRow {
 
 /// All rows, block after block: a block is one scene of one size by all structures.
 struct Comparison {
-    std::vector<ComparedRow> rows;
-    std::string machine, date;
-    std::string sources;   ///< a fingerprint of what was measured
-    double minutes = 0.0;  ///< of measuring, in all runs together
-    std::string settings;  ///< how much was measured, such as "full, seed 1, 2 threads"
+    std::vector<ComparedRow> rows = {};
+    std::string machine = {}, date = {};
+    std::string sources = {};   ///< a fingerprint of what was measured
+    double minutes = 0.0;       ///< of measuring, in all runs together
+    std::string settings = {};  ///< how much was measured, such as "full, seed 1, 2 threads"
 };
 
 /// The rows of each block, in their order.

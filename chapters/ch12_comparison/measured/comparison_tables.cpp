@@ -59,8 +59,13 @@ std::string rays_text(double rays) {
     return rays <= 1e3 ? with_commas(static_cast<std::uint64_t>(rays))
                        : fmt::format("10^{:.0f}", std::log10(rays));
 }
+/// "1 .. 4·10^5", as a range of whole rays.
 std::string range_text(const std::pair<double, double>& range) {
-    return fmt::format("{:.1e} .. {:.1e}", range.first, range.second);
+    const auto text = [](double rays) {
+        return rays < 1e4 ? with_commas(static_cast<std::uint64_t>(rays)) : power_of_ten(rays);
+    };
+    return range.first == range.second ? text(range.first)
+                                       : text(range.first) + " .. " + text(range.second);
 }
 
 Table scenes_table(const Comparison& comparison) {
