@@ -26,15 +26,21 @@ int printed(int result) {
 }
 
 /// What an error says, in one line that a terminal survives: names come from files, and may hold
-/// anything, a million letters of it.
+/// anything, a million letters of it. What is wrong with a name stands at the end.
 std::string one_line(std::string_view text) {
-    constexpr std::size_t longest = 2000;
+    constexpr std::size_t first = 1500, last = 500;
+    const bool is_long = text.size() > first + last;
     std::string line;
-    for (const char c : text.substr(0, longest)) {
-        const auto code = static_cast<unsigned char>(c);
-        line += code < 32 || code == 127 ? fmt::format("\\x{:02x}", code) : std::string(1, c);
-    }
-    return text.size() > longest ? line + "..." : line;
+    const auto append = [&](std::string_view part) {
+        for (const char c : part) {
+            const auto code = static_cast<unsigned char>(c);
+            line += code < 32 || code == 127 ? fmt::format("\\x{:02x}", code) : std::string(1, c);
+        }
+    };
+    append(is_long ? text.substr(0, first) : text);
+    if (is_long) append("...");
+    if (is_long) append(text.substr(text.size() - last));
+    return line;
 }
 
 void print_error(std::string_view name, std::string_view what) {

@@ -7,9 +7,11 @@
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 
+#include <cerrno>
 #include <filesystem>
 #include <new>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace space {
@@ -31,12 +33,18 @@ TEST_CASE("an error that a user can cause becomes one line on stderr and its exi
           std::pair(4, std::string("prog: full\n")));
     CHECK(run([](int, char**) -> int { throw std::bad_alloc(); }) ==
           std::pair(70, std::string("prog: out of memory\n")));
+    CHECK(
+        run([](int, char**) -> int { throw std::system_error(EAGAIN, std::generic_category()); }) ==
+        std::pair(70, std::string("prog: no more threads can be had (see --threads): Resource "
+                                  "temporarily unavailable\n")));
     CHECK(run([](int, char**) -> int { throw std::logic_error("x"); }) ==
           std::pair(70, std::string("prog: internal error: x\n")));
     CHECK(run([](int, char**) -> int { throw input_error("mesh \"a\nb\033[31m\"\r"); }) ==
           std::pair(3, std::string("prog: mesh \"a\\x0ab\\x1b[31m\"\\x0d\n")));
-    CHECK(run([](int, char**) -> int { throw usage_error(std::string(1'000'000, 'x')); }) ==
-          std::pair(2, "prog: " + std::string(2000, 'x') + "...\n"));
+    CHECK(run([](int, char**) -> int {
+              throw usage_error(std::string(1'000'000, 'x') + std::string(490, 'y') + ": too long");
+          }) == std::pair(2, "prog: " + std::string(1500, 'x') + "..." + std::string(490, 'y') +
+                                 ": too long\n"));
 }
 
 namespace {
