@@ -36,14 +36,20 @@ inline Double3 hit_point(const Triangle& triangle, const Hit& hit) {
 /// u24, the largest relative error of rounding to float.
 inline constexpr double float_roundoff = 0x1p-24;
 
+/// How far rounding to float moves a coordinate of size m: u24 m, or half of a step where floats
+/// are subnormal.
+constexpr double float_rounding(double m) {
+    return std::max(float_roundoff * m, 0x1p-150);
+}
+
 // [shadow_origin]
 /// Where a ray may leave a triangle on the side of the normal n (either of its two normals, of any
 /// length) without meeting the triangle again. The hit point P, rounded to float, lies beside the
 /// plane as often as before it, and half of the shadow rays would hit the triangle that they start
-/// from. So each coordinate is first moved in the direction of n's, by two roundings of the
-/// triangle's largest coordinate m. With u24 = 2^-24 rounding takes back at most
-/// u24 m (1 + 2 u24):
-///     n . (P' - P) >= sum |n_i| (2 u24 m - u24 m (1 + 2 u24)) > 0.99 u24 m |n|.
+/// from. So each coordinate is first moved in the direction of n's, by two roundings r of the
+/// triangle's largest coordinate m: r = u24 m, and never below 2^-150. Rounding takes back at most
+/// r (1 + 2 u24), where u24 = 2^-24:
+///     n . (P' - P) >= sum |n_i| (2 r - r (1 + 2 u24)) > 0.99 r |n|.
 /// This product is the numerator of t in the ray-triangle test, a volume of P' - a and two edges.
 /// Computed in double it is off by at most 8 u53 = 2^-50 times the product of their 1-norms, each
 /// up to sqrt(3) times the triangle's size L: 2^-47.6 L^3. As L <= 2 sqrt(3) m, the product is more
@@ -53,7 +59,7 @@ inline constexpr double float_roundoff = 0x1p-24;
 inline Point3 shadow_origin(const Triangle& triangle, const Double3& point, const Double3& n) {
     const Aabb box = bounds(triangle);
     const Point3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const double offset = 2.0 * float_roundoff * std::max({largest.x, largest.y, largest.z});
+    const double offset = 2.0 * float_rounding(std::max({largest.x, largest.y, largest.z}));
     return Point3(point + offset * glm::sign(n));
 }
 // [shadow_origin]

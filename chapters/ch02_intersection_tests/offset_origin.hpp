@@ -25,11 +25,12 @@ namespace space {
 ///   u24 m. Chapter 1 moves each coordinate by 2 u24 m, along the sign of n's. That is the first,
 ///   at 0.6 of the distance in the mean, but not this one: where n is nearly an axis, its signs
 ///   lead up to 1.4 u24 m behind a neighbour (tests/ch02/origins_test.cpp has one).
-/// The distance grows with the distance from the world's origin, as the float grid does.
+/// The distance grows with the distance from the world's origin, as the float grid does, whose step
+/// has a least size: 2^-150 stands for u24 m where that is more.
 inline Point3 offset_origin(const Triangle& triangle, const Hit& hit, const Double3& n) {
     const Aabb box = bounds(triangle);
     const Point3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const double offset = 4.0 * float_roundoff * std::max({largest.x, largest.y, largest.z});
+    const double offset = 4.0 * float_rounding(std::max({largest.x, largest.y, largest.z}));
     return Point3(hit_point(triangle, hit) + offset * glm::normalize(n));
 }
 // [offset_origin]

@@ -1,6 +1,7 @@
 #include "chapters/ch11_sampling_and_caching/lit_scene.hpp"
 
 #include "chapters/ch11_sampling_and_caching/lit_stage.hpp"
+#include "common/geometry.hpp"
 #include "common/program/error.hpp"
 #include "common/scene.hpp"
 
@@ -31,6 +32,12 @@ LitScene lit(Scene scene, std::vector<Color> emission, std::vector<std::uint8_t>
     return lit;
 }
 
+double diagonal_of(const LitScene& lit) {
+    Aabb box;
+    for (const Triangle& triangle : lit.triangles) box.extend(bounds(triangle));
+    return glm::length(Double3(box.extent()));
+}
+
 namespace {
 
 /// @throws Error (usage) for a name that is neither here nor among the book's scenes
@@ -55,7 +62,8 @@ void check_name(std::string_view spec) {
 
 }  // namespace
 
-LitScene make_lit_scene(std::string_view spec, std::uint64_t seed, bool small) {
+LitScene make_lit_scene(std::string_view spec, std::uint64_t seed, bool small,
+                        const std::optional<Camera>& camera) {
     LitStage stage;
     const std::span<const LitMaker> makers = lit_makers();
     const auto maker =
@@ -66,7 +74,8 @@ LitScene make_lit_scene(std::string_view spec, std::uint64_t seed, bool small) {
     else if (spec.substr(0, spec.find(':')) == "room")
         make_lit_room(stage, spec, seed, small);
     else
-        make_lit_studio(stage, spec, seed, small);
+        make_lit_studio(stage, spec, seed, small, camera);
+    if (camera) stage.scene.camera = *camera;
     if (stage.scene.name.empty()) stage.scene.name = spec;
     return lit(std::move(stage.scene), std::move(stage.emission), std::move(stage.mirror));
 }

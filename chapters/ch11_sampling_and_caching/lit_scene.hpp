@@ -3,10 +3,12 @@
 /// is a perfect mirror; some emit light from their front. There is no more to materials here.
 #pragma once
 
+#include "common/camera.hpp"
 #include "common/geometry.hpp"
 #include "common/scene.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -44,10 +46,15 @@ struct LitSceneRecipe {
 std::span<const LitSceneRecipe> lit_scene_recipes();
 
 /// Makes the lit scene that `spec` names: one of lit_scene_recipes(), "room:bunny" or "room:FILE",
-/// or whatever make_scene knows, which then stands in a closed studio under an area light. The same
-/// bytes for the same arguments, with every compiler.
-/// @throws Error as make_scene
-LitScene make_lit_scene(std::string_view spec, std::uint64_t seed = 1, bool small = false);
+/// or whatever make_scene knows, which then stands in a closed studio under an area light. Seen by
+/// `camera`, where there is one, and else by the scene's own; a studio holds the eyes of both. The
+/// same bytes for the same arguments, with every compiler.
+/// @throws Error as make_scene, and (bad_input) where floats do not reach across the studio
+LitScene make_lit_scene(std::string_view spec, std::uint64_t seed = 1, bool small = false,
+                        const std::optional<Camera>& camera = {});
+
+/// Of the box around its triangles.
+double diagonal_of(const LitScene& lit);
 
 /// A scene's triangles, and which of them emit: `emission` and `mirror` as in LitScene.
 LitScene lit(Scene scene, std::vector<Color> emission, std::vector<std::uint8_t> mirror = {});

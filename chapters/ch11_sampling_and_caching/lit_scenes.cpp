@@ -5,9 +5,12 @@
 #include "common/scenes/shapes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -190,18 +193,29 @@ void make_lit_room(LitStage& stage, std::string_view spec, std::uint64_t seed, b
         .eye = {0.8f, 1.42f, 2.35f}, .target = {-0.22f, 1.06f, 0.0f}, .field_of_view = 48};
 }
 
-void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small) {
+void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small,
+                     const std::optional<Camera>& camera) {
     stage.begin_with(make_scene(spec, seed, small));
-    const Scene& scene = stage.scene;
-    const Aabb box = bounds(scene.mesh);
-    const Double3 low(box.min), high(box.max), middle = 0.5 * (low + high), eye(scene.camera.eye);
-    const double reach = 1.25 * std::max(glm::length(eye - middle), glm::length(high - low));
-    const Double3 min{middle.x - reach, std::min(low.y, eye.y - 0.1 * reach), middle.z - reach},
-        max{middle.x + reach, std::max(eye.y, high.y) + 0.5 * reach, middle.z + reach};
-    if (!is_finite<3>(Point3(min)) || !is_finite<3>(Point3(max)))
+    const Camera& own = stage.scene.camera;
+    const Aabb box = bounds(stage.scene.mesh);
+    const Double3 low(box.min), high(box.max), middle = 0.5 * (low + high);
+    double reach = glm::length(high - low), floor = low.y, ceiling = high.y;
+    const std::array eyes{Double3(own.eye), Double3(camera ? camera->eye : own.eye)};
+    for (const Double3& eye : eyes) reach = std::max(reach, glm::length(eye - middle));
+    reach *= 1.25;
+    for (const Double3& eye : eyes) {
+        floor = std::min(floor, eye.y - 0.1 * reach);
+        ceiling = std::max(ceiling, eye.y);
+    }
+    const Double3 min{middle.x - reach, floor, middle.z - reach},
+        max{middle.x + reach, ceiling + 0.5 * reach, middle.z + reach};
+    const bool is_in_floats = is_finite<3>(Point3(min)) && is_finite<3>(Point3(max)) &&
+                              std::isfinite(static_cast<float>(glm::length(max - min)));
+    if (!is_in_floats)
         throw input_error(std::string(spec) + ": too large: the studio around it has no floats");
     stage.add(turned_inside_out(space::box(min, max)), Color{0.62f, 0.60f, 0.57f});
-    const Double3 light{middle.x - 0.6 * reach, max.y - 0.1 * reach, middle.z + 0.55 * reach};
+    // Half of its side below the ceiling: it may hang at any angle.
+    const Double3 light{middle.x - 0.6 * reach, max.y - 0.15 * reach, middle.z + 0.55 * reach};
     stage.add_panel(light, middle, 0.3 * reach, Color{0.9f, 0.85f, 0.78f});
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "chapters/ch11_sampling_and_caching/lit_scene.hpp"
+#include "common/camera.hpp"
 #include "common/mesh.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -47,7 +49,9 @@ std::span<const LitMaker> lit_makers();
 /// The book's room by daylight and lamplight, with what `spec` puts on its table ("room...").
 void make_lit_room(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small);
 
-/// Any other scene of the book in a closed studio, under a square light.
-void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small);
+/// Any other scene of the book in a closed studio, under a square light. The studio holds the eye
+/// of the scene's camera and of `camera`, where there is one.
+void make_lit_studio(LitStage& stage, std::string_view spec, std::uint64_t seed, bool small,
+                     const std::optional<Camera>& camera);
 
 }  // namespace space

@@ -31,6 +31,13 @@ struct PathConfig {
 inline double survival(const Double3& throughput) {
     return std::min(0.95, std::max({throughput.x, throughput.y, throughput.z}));
 }
+/// Whether the path goes on; its throughput is that of what goes on.
+inline bool goes_on(Double3& throughput, Sampler& sampler) {
+    const double chance = survival(throughput);
+    if (sampler.next() >= chance) return false;
+    throughput /= chance;
+    return true;
+}
 
 /// The ray on which a path goes on, and how it was chosen.
 struct Reflection {
@@ -82,10 +89,7 @@ Double3 path_radiance(const A& accelerator, const LitScene& lit, const LightTabl
         pdf = next.pdf;
         throughput *= next.factor;
 
-        if (bounce + 1 < config.roulette_from) continue;
-        const double goes_on = survival(throughput);
-        if (sampler.next() >= goes_on) return radiance;
-        throughput /= goes_on;
+        if (bounce + 1 >= config.roulette_from && !goes_on(throughput, sampler)) return radiance;
     }
 }
 // [path]

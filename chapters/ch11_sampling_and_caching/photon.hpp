@@ -5,7 +5,6 @@
 #pragma once
 
 #include "common/geometry.hpp"
-#include "common/scene.hpp"
 
 #include <cstdint>
 
@@ -16,11 +15,12 @@ namespace space {
 /// are LD, LS+D, and all with a diffuse surface between.
 enum class PhotonPath : std::uint8_t { direct, caustic, indirect };
 
-/// Floats are enough: an estimate adds up a hundred, each random.
+/// Floats are enough for where: an estimate adds up a hundred, each random. Power grows with the
+/// square of a scene's size, beyond floats for one of 10^20 units.
 struct Photon {
     Point3 position{0.0f};
     Vector3 normal{0.0f};  ///< of the side that it arrived at, of length 1
-    Color power{0.0f};     ///< watts, RGB
+    Double3 power{0.0};    ///< watts, RGB
     PhotonPath path = PhotonPath::direct;
 
     bool operator==(const Photon&) const = default;

@@ -89,7 +89,7 @@ inline Double3 plain_density(const PhotonMap& map, const Point3& point, std::siz
     double square = 0.0;
     for (const Neighbour& near : k_nearest<3>(map.tree, point, k)) {
         if (near.squared_distance > double{radius} * double{radius}) break;
-        power += Double3(map.photons[near.index].power);
+        power += map.photons[near.index].power;
         square = near.squared_distance;
     }
     return power / (std::numbers::pi * square);
@@ -156,7 +156,7 @@ class DensityEstimator {
             const Photon& photon = map_.photons[near.index];
             if (!config_.only_own_surface ||
                 is_on_surface(photon, position, normal, disc.squared_radius))
-                power += Double3(photon.power);
+                power += photon.power;
         }
         return power / (std::numbers::pi * disc.squared_radius);
     }

@@ -88,7 +88,7 @@ void trace_photon(const A& accelerator, const LitScene& lit, Ray ray, Double3 po
         const SurfacePoint at = surface_point(lit, ray, *hit);
         const bool is_mirror = lit.is_mirror(at.triangle);
         if (!is_mirror)
-            trace.photons.push_back({Point3(at.position), Vector3(at.normal), Color(power), path});
+            trace.photons.push_back({Point3(at.position), Vector3(at.normal), power, path});
         if (!is_mirror && aim) break;
         const auto reflected = reflected_power(power, lit.reflectance(at.triangle), sampler.next());
         if (!reflected) return void(++trace.counts.absorbed);

@@ -66,7 +66,8 @@ std::string film_state(const Film& film, std::string_view key) {
     return bytes;
 }
 
-Film load_film_state(const std::filesystem::path& file, std::string_view key) {
+Film load_film_state(const std::filesystem::path& file, std::string_view key, int width,
+                     int height) {
     const std::string content = read_file(file);
     std::string_view bytes = content;
     const auto fault = [&](const std::string& what) {
@@ -84,14 +85,14 @@ Film load_film_state(const std::filesystem::path& file, std::string_view key) {
     const std::string_view kept = bytes.substr(0, key_size);
     if (kept != key) throw fault("of another picture: " + difference(kept, key));
     bytes.remove_prefix(kept.size());
-    int width = 0, height = 0;
-    std::uint32_t samples = 0;
-    if (!take(bytes, width) || !take(bytes, height) || !take(bytes, samples) || width < 1 ||
-        height < 1 || bytes.size() / sizeof(Double3) / std::size_t(width) != std::size_t(height))
-        throw fault("damaged: it does not hold its pixels");
     Film film(width, height);
-    film.samples = samples;
-    std::memcpy(film.sums.data(), bytes.data(), film.sums.size() * sizeof(Double3));
+    int kept_width = 0, kept_height = 0;
+    const bool is_whole = take(bytes, kept_width) && take(bytes, kept_height) &&
+                          take(bytes, film.samples) && film.samples > 0 && kept_width == width &&
+                          kept_height == height &&
+                          bytes.size() == film.sums.size() * sizeof(Double3);
+    if (!is_whole) throw fault("damaged: it does not hold its pixels");
+    std::memcpy(film.sums.data(), bytes.data(), bytes.size());
     return film;
 }
 

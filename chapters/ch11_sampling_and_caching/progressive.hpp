@@ -46,9 +46,10 @@ void add_pass(Film& film, const Camera& camera, const Sampler& numbers, unsigned
 /// picture this is, and a checksum.
 std::string film_state(const Film& film, std::string_view key);
 
-/// The film of a file that holds film_state(film, key). @throws Error (bad_input) where the file
-/// cannot be read, is damaged, or belongs to a picture with another key; the line names what
-/// differs
-Film load_film_state(const std::filesystem::path& file, std::string_view key);
+/// The film of a file that holds film_state(film, key), of this size and with a pass or more.
+/// @throws Error (bad_input) where the file cannot be read, is damaged, or belongs to a picture
+/// with another key; the line names what differs
+Film load_film_state(const std::filesystem::path& file, std::string_view key, int width,
+                     int height);
 
 }  // namespace space

@@ -88,10 +88,7 @@ SeenLight arriving_light(const A& accelerator, const LitScene& lit, const LightT
             ray =
                 ray_from(surface, cosine_hemisphere(surface.normal, sampler.next_pair()).direction);
         }
-        if (bounce < 2) continue;
-        const double goes_on = survival(throughput);
-        if (sampler.next() >= goes_on) return seen;
-        throughput /= goes_on;
+        if (bounce >= 2 && !goes_on(throughput, sampler)) return seen;
     }
 }
 // [arriving_light]
@@ -137,9 +134,7 @@ struct CacheRound {
 
 /// The bounds of radii in a scene.
 inline RadiusLimits radius_limits(const LitScene& lit, const RadianceCacheConfig& config) {
-    Aabb box;
-    for (const Triangle& triangle : lit.triangles) box.extend(bounds(triangle));
-    const double diagonal = glm::length(Double3(box.extent()));
+    const double diagonal = diagonal_of(lit);
     return {config.smallest_radius * diagonal, config.largest_radius * diagonal};
 }
 
@@ -152,7 +147,7 @@ IrradianceRecord gather_record(const A& accelerator, const LitScene& lit, const 
                                const RadianceCacheConfig& config) {
     Sampler sampler(config.pattern, static_cast<std::uint32_t>(config.grid.cells()),
                     key_for(config.seed, 0));
-    std::vector<SeenLight> memory;
+    thread_local std::vector<SeenLight> memory;  // of one record after the other
     IrradianceRecord record =
         gather_irradiance(surface.position, surface.normal, config.grid, limits.smallest, sampler,
                           stream, memory, [&](const Double3& direction, Sampler& random) {

@@ -53,15 +53,18 @@ constexpr std::uint32_t permuted_index(std::uint32_t index, std::uint32_t count,
     return static_cast<std::uint32_t>(x);
 }
 
-/// Numbers in [0, 1). start() says for which sample of which pixel; each next() or next_pair()
-/// after it is a dimension of its own, well spread over the pixel's samples and independent of the
-/// other dimensions and pixels.
+/// Numbers in [0, 1), next() in steps of 2^-53: so small a part of a light may be chosen. start()
+/// says for which sample of which pixel; each next() or next_pair() after it is a dimension of its
+/// own, well spread over the pixel's samples and independent of the other dimensions and pixels.
 class Sampler {
   public:
     /// `samples`: how many a pixel will have; that is the size of the stratified grids (a pixel's
-    /// further samples begin another one). The other patterns do not care.
+    /// further samples begin another one, and so do those beyond most_strata). The other patterns
+    /// do not care.
     Sampler(SamplePattern pattern, std::uint32_t samples, std::uint64_t seed)
-        : pattern_(pattern), samples_(std::max(samples, 1u)), seed_key_(mixed_bits(seed)) {
+        : pattern_(pattern),
+          samples_(std::clamp(samples, 1u, most_strata)),
+          seed_key_(mixed_bits(seed)) {
         columns_ = static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(samples_))));
         rows_ = (samples_ - 1) / columns_ + 1;
         start(0, 0);
@@ -78,8 +81,10 @@ class Sampler {
         if (pattern_ == SamplePattern::independent) return random_.uniform_double();
         const std::uint64_t key = next_key();
         if (pattern_ == SamplePattern::stratified)
-            return (stratum(samples_, key) + random_.uniform_double()) / samples_;
-        return fraction(owen_scrambled(sobol_point(shuffled_sample(key)).x, low(key)));
+            return below_one((stratum(samples_, key) + random_.uniform_double()) / samples_);
+        // Sobol's 32 digits, and below them random ones.
+        const std::uint64_t digits = owen_scrambled(sobol_point(shuffled_sample(key)).x, low(key));
+        return static_cast<double>((digits << 21) | (random_.next() >> 11)) * 0x1p-53;
     }
 
     Double2 next_pair() {
@@ -88,7 +93,8 @@ class Sampler {
         if (pattern_ == SamplePattern::stratified) {
             const std::uint32_t cell = stratum(columns_ * rows_, key);
             const Double2 corner{cell % columns_, cell / columns_};
-            return (corner + jitter()) / Double2(columns_, rows_);
+            const Double2 u = (corner + jitter()) / Double2(columns_, rows_);
+            return {below_one(u.x), below_one(u.y)};
         }
         const SobolPoint p = sobol_point(shuffled_sample(key));
         const std::uint64_t second = mixed_bits(key);
@@ -96,9 +102,14 @@ class Sampler {
                 fraction(owen_scrambled(p.y, low(second)))};
     }
 
+    /// The largest grid whose cells 32 bits can count: 2^16 columns, and a row less.
+    static constexpr std::uint32_t most_strata = 0xFFFF0000u;
+
   private:
     std::uint64_t next_key() { return key_for(pixel_key_, dimension_++); }
     static std::uint32_t low(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
+    /// A sum may have been rounded up to 1.
+    static double below_one(double u) { return std::min(u, 0x1.fffffffffffffp-1); }
     static double fraction(std::uint32_t bits) { return bits * 0x1p-32; }
 
     Double2 jitter() {

@@ -55,7 +55,8 @@ inline Ray mirror_ray(const SurfacePoint& surface, const Ray& ray) {
 /// which the ray-triangle test resolves (see shadow_origin). The ray meets the light's plane at an
 /// exact t > 1, which becomes a float t >= 1: above tmax, the float before 1. The offset of
 /// shadow_origin alone, without D, is too small for lights that are smaller and nearer to the
-/// world's origin than their distance from the surface.
+/// world's origin than their distance from the surface. (Where 2^-150 is more than u24 (m + D), it
+/// stands for that: an end is rounded by no more, and a direction not at all.)
 inline Ray ray_to_light(const Point3& origin, const Triangle& light, const Double3& point,
                         const Double3& n) {
     const Aabb box = bounds(light);
@@ -63,7 +64,7 @@ inline Ray ray_to_light(const Point3& origin, const Triangle& light, const Doubl
     const Double3 way = glm::abs(point - Double3(origin));
     const double reach =
         std::max({largest.x, largest.y, largest.z}) + std::max({way.x, way.y, way.z});
-    const Point3 end(point + 2.0 * float_roundoff * reach * glm::sign(n));
+    const Point3 end(point + 2.0 * float_rounding(reach) * glm::sign(n));
     return {.origin = origin,
             .direction = end - origin,
             .tmin = 0.0f,

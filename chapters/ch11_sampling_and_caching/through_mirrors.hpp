@@ -4,7 +4,7 @@
 #pragma once
 
 #include "chapters/ch11_sampling_and_caching/lit_scene.hpp"
-#include "chapters/ch11_sampling_and_caching/path_tracer.hpp"  // survival
+#include "chapters/ch11_sampling_and_caching/path_tracer.hpp"  // goes_on
 #include "chapters/ch11_sampling_and_caching/sampler.hpp"
 #include "chapters/ch11_sampling_and_caching/surface_point.hpp"
 #include "common/accelerator.hpp"
@@ -40,11 +40,7 @@ SeenSurface seen_through_mirrors(const A& accelerator, const LitScene& lit, Ray 
             return seen;
         }
         seen.throughput *= lit.reflectance(at.triangle);
-        if (seen.mirrors >= 2) {
-            const double goes_on = survival(seen.throughput);
-            if (sampler.next() >= goes_on) return seen;
-            seen.throughput /= goes_on;
-        }
+        if (seen.mirrors >= 2 && !goes_on(seen.throughput, sampler)) return seen;
         ray = mirror_ray(at, ray);
     }
 }

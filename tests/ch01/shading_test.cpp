@@ -134,6 +134,32 @@ TEST_CASE("shadow origins never meet their own triangle again, and rounded hit p
     }
 }
 
+TEST_CASE("shadow origins leave triangles of subnormal coordinates, too") {
+    Pcg32 random(18);
+    int rays = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        // From 3 to 2^24 of the smallest steps of floats.
+        const float size = std::ldexp(3.0f, -149 + i % 24);
+        const auto corner = [&] { return size * Point3(random_vector(random)); };
+        Triangle triangle;
+        triangle.a = corner();
+        triangle.b = corner();
+        triangle.c = corner();
+        if (i % 10 == 0) triangle.a.x = triangle.b.x = triangle.c.x = 0.0f;
+        const Double3 n = normal(triangle);
+        if (n == Double3(0.0)) continue;
+        const float u = 0.5f * random.uniform(), v = 0.5f * random.uniform();
+        const Double3 p = hit_point(triangle, {.t = 1.0f, .u = u, .v = v});
+        for (const Double3& side : {n, -n}) {
+            const Double3 origin{shadow_origin(triangle, p, side)};
+            ++rays;
+            if (!(glm::dot(glm::normalize(side), origin - Double3(triangle.a)) > 0.0))
+                FAIL("size " << size << ", triangle " << i);
+        }
+    }
+    CHECK(rays > 30'000);
+}
+
 TEST_CASE("a shadow origin lies within a few float steps of the hit point") {
     const Triangle triangle{{100, 200, 300}, {101, 200, 300}, {100, 201, 301}};
     const Double3 p = hit_point(triangle, {.t = 1, .u = 0.25f, .v = 0.25f});

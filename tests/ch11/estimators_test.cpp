@@ -37,7 +37,7 @@ namespace space {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int seeds = 100;
+constexpr int seeds = sized(100, 20);
 const Double3 up{0, 0, 1};
 
 struct Surface {
@@ -279,7 +279,7 @@ TEST_CASE("a mirror: the lamp's image shines as if it stood behind it, dimmed") 
                 for (const Photon& photon : trace.photons)
                     if (photon.path == PhotonPath::caustic && photon.position.z < 0.01f &&
                         photon.position.x < 1.0f && std::abs(photon.position.y) < 2.0f)
-                        sum += Double3(photon.power);
+                        sum += photon.power;
                 for (int c = 0; c < 3; ++c) means[std::size_t(c)].add(sum[c]);
             }
             check(is_aimed ? "aimed" : "by chance", means, flux, Double3(0.0), 0.2);
@@ -448,7 +448,7 @@ TEST_CASE("a closed room: as much light arrives at each wall in photons") {
             for (std::size_t wall = 0; wall < 5; ++wall) {  // which one its normal tells
                 const Rectangle& shape = walls[wall].shape;
                 if (glm::dot(Double3(photon.normal), glm::cross(shape.u, shape.v)) > 1.0)
-                    power[wall] += Double3(photon.power);
+                    power[wall] += photon.power;
             }
         for (std::size_t wall = 0; wall < 5; ++wall)
             for (int c = 0; c < 3; ++c) means[wall][std::size_t(c)].add(power[wall][c]);
@@ -769,7 +769,7 @@ TEST_CASE("light that is sent out evenly, or k photons for k - 1: wrong photons 
                 });
             Double3 sum{0.0};
             for (const Photon& photon : trace.photons)
-                if (photon.normal.z > 0.5f) sum += Double3(photon.power);
+                if (photon.normal.z > 0.5f) sum += photon.power;
             return sum;
         };
         const Double3 wrong_flux = on_floor(true), flux = on_floor(false);

@@ -8,6 +8,7 @@
 #include "chapters/ch11_sampling_and_caching/path_tracer.hpp"
 #include "chapters/ch11_sampling_and_caching/sampler.hpp"
 #include "common/accelerator.hpp"
+#include "common/camera.hpp"
 #include "common/program/error.hpp"
 #include "common/program/temporary.hpp"
 #include "common/random.hpp"
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -191,6 +193,52 @@ TEST_CASE("a mesh stands in a closed studio, whatever its size and place") {
             CHECK(seen_by_camera(lit).hits == 40 * 30);
             CHECK(seen_by_camera(lit).backs == 0);
         }
+}
+
+TEST_CASE("a studio's light hangs below its ceiling, and its camera may stand anywhere outside") {
+    const Camera above{.eye = {1.0f, 40.0f, 2.0f}, .target = {0.0f, 1.0f, 0.0f}},
+        below{.eye = {-9.0f, -30.0f, 0.5f}, .target = {0.0f, 1.0f, 0.0f}};
+    const std::optional<Camera> cameras[] = {{}, above, below};
+    for (const std::string_view name : {"soup", "sphereflake:1", "tree:2", "mount:2", "stadium"})
+        for (const std::optional<Camera>& camera : cameras) {
+            CAPTURE(name, camera.has_value());
+            const LitScene lit = make_lit_scene(name, 1, true, camera);
+            Aabb walls, lights;
+            for (std::uint32_t i = 0; i < lit.triangles.size(); ++i)
+                (lit.emitted(i, true) == Double3(0.0) ? walls : lights)
+                    .extend(bounds(lit.triangles[i]));
+            CHECK(glm::all(glm::lessThan(lights.max, walls.max)));
+            CHECK(glm::all(glm::greaterThan(lights.min, walls.min)));
+            CHECK(leaks(lit, 500) == 0);
+            if (!camera) continue;
+            CHECK(lit.scene.camera.eye == camera->eye);
+            CHECK(lit.scene.camera.target == camera->target);
+            CHECK(seen_by_camera(lit).hits == 40 * 30);
+        }
+    CHECK(make_lit_scene("box", 1, true, above).scene.camera.eye == above.eye);
+}
+
+TEST_CASE("a studio is refused where floats do not reach from corner to corner, and works below") {
+    const TemporaryDirectory directory;
+    const std::string file = (directory / "mesh.ply").string();
+    int made = 0, refused = 0;
+    for (float size = 1e36f; size < 1e38f; size *= 1.1f) {
+        CAPTURE(size);
+        write_ply(file, {.vertices = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
+                         .faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
+        try {
+            const LitScene lit = make_lit_scene(file);
+            ++made;
+            CHECK(refused == 0);
+            CHECK(diagonal_of(lit) <= std::numeric_limits<float>::max());
+            CHECK(leaks(lit, 200) == 0);
+        } catch (const Error& error) {
+            CHECK(error.code() == ExitCode::bad_input);
+            ++refused;
+        }
+    }
+    CHECK(made > 10);
+    CHECK(refused > 10);
 }
 
 TEST_CASE("a scene that does not exist, and a mesh too large for a studio, are told") {

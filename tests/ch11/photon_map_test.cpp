@@ -18,7 +18,7 @@ namespace {
 const Double3 up{0.0, 0.0, 1.0};
 
 Photon photon_at(const Point3& position, const Vector3& normal = {0.0f, 0.0f, 1.0f}) {
-    return {.position = position, .normal = normal, .power = Color(1.0f)};
+    return {.position = position, .normal = normal, .power = Double3(1.0)};
 }
 
 /// Photons of power 1 on the plane z = 0, each at the same chance anywhere in the square of this
@@ -263,7 +263,7 @@ TEST_CASE("a map keeps every photon once, whatever their number, and its tree na
     for (const std::size_t count : {0u, 1u, 8u, 9u, 1000u}) {
         std::vector<Photon> photons = even_photons(count, 5);
         for (std::size_t i = 0; i < count; ++i) {
-            photons[i].power.x = float(i);
+            photons[i].power.x = double(i);
             photons[i].path = i % 3 == 0 ? PhotonPath::caustic : PhotonPath::indirect;
         }
         const PhotonMap map = PhotonMap::build(photons);

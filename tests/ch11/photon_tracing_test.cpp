@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace space {
@@ -27,8 +28,9 @@ struct LitTree {
     LightTable lights;
     Tree tree;
 
-    explicit LitTree(const std::string& name)
-        : lit(make_lit_scene(name, 1, true)), lights(lit), tree(Tree::build(lit.triangles)) {}
+    explicit LitTree(const std::string& name) : LitTree(make_lit_scene(name, 1, true)) {}
+    explicit LitTree(LitScene scene)
+        : lit(std::move(scene)), lights(lit), tree(Tree::build(lit.triangles)) {}
 
     PhotonTrace photons(const PhotonConfig& config) const {
         return trace_photons(tree, lit, lights, config);
@@ -43,13 +45,13 @@ template <class Counts>
 Double3 power_of(const PhotonTrace& trace, const Counts& counts) {
     Double3 sum{0.0};
     for (const Photon& photon : trace.photons)
-        if (counts(photon)) sum += Double3(photon.power);
+        if (counts(photon)) sum += photon.power;
     return sum;
 }
 bool is_caustic(const Photon& photon) {
     return photon.path == PhotonPath::caustic;
 }
-float largest_power(const Photon& photon) {
+double largest_power(const Photon& photon) {
     return std::max({photon.power.r, photon.power.g, photon.power.b});
 }
 
@@ -147,9 +149,30 @@ TEST_CASE("roulette keeps the largest component, and in the mean passes on what 
     CHECK_FALSE(reflected_power(Double3(0.0), Double3(1.0), 0.0).has_value());
 }
 
+TEST_CASE("in a scene 2^67 times as large, or 2^-67, photons are the same but for size and power") {
+    const LitTree plain("box");
+    const PhotonConfig config{.count = 2'000};
+    const PhotonTrace expected = plain.photons(config);
+    for (const int exponent : {67, -67}) {
+        CAPTURE(exponent);
+        LitScene scaled = make_lit_scene("box", 1, true);
+        for (Point3& vertex : scaled.scene.mesh.vertices)
+            vertex *= std::ldexp(1.0f, exponent);  // exact
+        const LitTree large(lit(scaled.scene, scaled.emission, scaled.mirror));
+        const PhotonTrace trace = large.photons(config);
+        REQUIRE(trace.photons.size() == expected.photons.size());
+        for (std::size_t i = 0; i < trace.photons.size(); ++i) {
+            const Photon &one = expected.photons[i], &other = trace.photons[i];
+            REQUIRE(other.position == one.position * std::ldexp(1.0f, exponent));
+            for (int c = 0; c < 3; ++c)
+                REQUIRE(other.power[c] == Approx(std::ldexp(one.power[c], 2 * exponent)));
+        }
+    }
+}
+
 TEST_CASE("a photon is as strong after many reflections as at first") {
     const PhotonTrace trace = LitTree("box").photons({.count = 2'000});
-    const float first = largest_power(trace.photons.front());
+    const double first = largest_power(trace.photons.front());
     std::size_t indirect = 0;
     for (const Photon& photon : trace.photons) {
         CHECK(largest_power(photon) == Approx(first).epsilon(1e-5));

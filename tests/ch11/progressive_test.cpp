@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace space {
 namespace {
@@ -35,7 +36,7 @@ Film film_after(std::uint32_t passes, unsigned threads, std::uint64_t seed = 1) 
 
 std::string fault_of(const std::filesystem::path& file, std::string_view key) {
     try {
-        load_film_state(file, key);
+        load_film_state(file, key, 13, 7);
     } catch (const Error& error) {
         CHECK(error.code() == ExitCode::bad_input);
         return error.what();
@@ -56,7 +57,7 @@ TEST_CASE("a film's state comes back to the last bit, and passes go on from it")
     const TemporaryDirectory directory;
     Film film = film_after(2, 1);
     write_file(directory / "state", film_state(film, "scene=a size=b"));
-    Film again = load_film_state(directory / "state", "scene=a size=b");
+    Film again = load_film_state(directory / "state", "scene=a size=b", 13, 7);
     CHECK(again == film);
     const Sampler numbers(SamplePattern::sobol, 5, 1);
     while (again.samples < 5) add_pass(again, {}, numbers, 3, any_light());
@@ -126,6 +127,23 @@ TEST_CASE("another key, and a state with any byte changed or missing, is refused
         if (fault_of(file, "scene=a size=b") == "none") FAIL("size " << at);
     }
     CHECK(fault_of(directory / "none", "").find("No such file") != std::string::npos);
+}
+
+TEST_CASE(
+    "a state of another size, of no pass, or with bytes to spare is refused, checksum or no") {
+    const TemporaryDirectory directory;
+    const std::filesystem::path file = directory / "state";
+    const Film right = film_after(1, 1);
+    Film turned = right, none = right, longer = right;
+    std::swap(turned.width, turned.height);
+    none.samples = 0;
+    longer.sums.emplace_back(1.0);
+    write_file(file, film_state(right, "k"));
+    CHECK(fault_of(file, "k") == "none");
+    for (const Film& film : {turned, none, longer}) {
+        write_file(file, film_state(film, "k"));  // whose checksum is right
+        CHECK(fault_of(file, "k") == file.string() + ": damaged: it does not hold its pixels");
+    }
 }
 
 TEST_CASE("a picture is the mean of its samples times the exposure, and black before the first") {

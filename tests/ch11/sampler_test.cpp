@@ -201,6 +201,31 @@ TEST_CASE("a sampler's numbers depend on seed, pixel, sample and call alone") {
     }
 }
 
+TEST_CASE("a stratified pixel may have as many samples as there are numbers for them") {
+    for (const std::uint32_t samples : {0xFFFEFFFFu, 0xFFFF0000u, 0xFFFF0001u, 0xFFFFFFFFu}) {
+        Sampler sampler(SamplePattern::stratified, samples, 5);
+        for (const std::uint32_t sample : {0u, 1u, 0x80000000u, 0xFFFEFFFFu, 0xFFFFFFFFu}) {
+            sampler.start(3, sample);
+            const double x = sampler.next();
+            const Double2 u = sampler.next_pair();
+            CAPTURE(samples, sample, x, u.x, u.y);
+            CHECK((x >= 0.0 && x < 1.0 && u.x >= 0.0 && u.x < 1.0 && u.y >= 0.0 && u.y < 1.0));
+        }
+    }
+}
+
+TEST_CASE("single numbers fall into every part of [0, 1), however small: below 2^-32, evenly") {
+    for (const SamplePattern pattern : patterns) {
+        CAPTURE(static_cast<int>(pattern));
+        Sampler sampler(pattern, 64, 6);
+        CHECK(is_uniform(sized(50'000u, 5'000u), [&](auto pixel) {
+            sampler.start(pixel, static_cast<std::uint32_t>(pixel % 64));
+            const double digits = sampler.next() * 0x1p32;
+            return Double2(std::floor(digits) * 0x1p-32, digits - std::floor(digits));
+        }));
+    }
+}
+
 TEST_CASE("a sampler's numbers are these, with every compiler") {
     const auto third = [](SamplePattern pattern) {
         Sampler sampler(pattern, 9, 1);

@@ -19,7 +19,7 @@ Image with_photons(const LitPicture& picture, const Film& film, std::span<const 
         if (const auto at =
                 picture.seen_at(Double3(photon.position) + 1e-3 * Double3(photon.normal)))
             dot(image, *at, 0,
-                photon.power / std::max({photon.power.r, photon.power.g, photon.power.b}));
+                Color(photon.power / std::max({photon.power.r, photon.power.g, photon.power.b})));
     return image;
 }
 

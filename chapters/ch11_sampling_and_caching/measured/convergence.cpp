@@ -99,7 +99,9 @@ void add_photons(const Judge& judge, const std::string& method, const std::strin
 void add_cache(const Judge& judge, const std::string& method, const RadianceCacheConfig& config,
                std::uint32_t samples) {
     const TracedScene& s = judge.scene;
-    judge.add(method, fmt::format("{}, {} a pixel", config.accuracy, samples),
+    judge.add(method,
+              fmt::format("{}, {} rays, {} a pixel", config.accuracy,
+                          with_commas(static_cast<std::uint64_t>(config.grid.cells())), samples),
               [&](std::uint64_t seed, std::uint64_t& work) {
                   RadianceCacheConfig seeded = config;
                   seeded.seed = seed;
@@ -117,6 +119,7 @@ void add_cache(const Judge& judge, const std::string& method, const RadianceCach
 /// How finely a cache is filled, and how many points of lights are asked for each pixel beside it.
 struct CacheSetting {
     double accuracy;
+    HemisphereGrid grid;  ///< of a record's rays
     std::uint32_t samples;
 };
 /// How much of everything, by how much a run may take.
@@ -130,7 +133,6 @@ struct ConvergenceSizes {
     std::vector<CacheSetting> caches;
     std::vector<int> gather_rays;
     std::uint32_t samples;  ///< a pixel, where photons are asked
-    HemisphereGrid grid = {};
 };
 ConvergenceSizes sizes_of(const Options& options) {
     switch (options.amount()) {
@@ -144,10 +146,9 @@ ConvergenceSizes sizes_of(const Options& options) {
                     .room_samples = 4,
                     .photons = {1'000, 3'000},
                     .indirect_photons = 1'000,
-                    .caches = {{0.8, 4}},
+                    .caches = {{0.8, {4, 12}, 4}},
                     .gather_rays = {1},
-                    .samples = 1,
-                    .grid = {4, 12}};
+                    .samples = 1};
         case Amount::quick:
             return {.caustic_width = 80,
                     .room_width = 64,
@@ -158,7 +159,7 @@ ConvergenceSizes sizes_of(const Options& options) {
                     .room_samples = 16,
                     .photons = {10'000, 100'000},
                     .indirect_photons = 10'000,
-                    .caches = {{0.8, 16}, {0.4, 64}},
+                    .caches = {{0.8, {24, 72}, 16}, {0.4, {24, 72}, 64}},
                     .gather_rays = {1},
                     .samples = 4};
         case Amount::full:
@@ -173,7 +174,11 @@ ConvergenceSizes sizes_of(const Options& options) {
             .room_samples = 64,
             .photons = {10'000, 30'000, 100'000, 300'000, 1'000'000, 3'000'000},
             .indirect_photons = 20'000,
-            .caches = {{0.8, 64}, {0.4, 256}, {0.3, 512}, {0.2, 1'024}},
+            .caches = {{0.8, {24, 72}, 64},
+                       {0.4, {24, 72}, 128},
+                       {0.3, {36, 108}, 256},
+                       {0.2, {48, 144}, 256},
+                       {0.12, {48, 144}, 256}},
             .gather_rays = {1, 4},
             .samples = 16};
 }
@@ -241,7 +246,7 @@ Convergence measure_room(const std::string& name, int width, const Options& opti
     for (const bool gradients : {false, true})
         for (const CacheSetting& cache : sizes.caches)
             add_cache(judge, gradients ? "cache, gradients" : "cache, constant",
-                      {.accuracy = cache.accuracy, .grid = sizes.grid, .gradients = gradients},
+                      {.accuracy = cache.accuracy, .grid = cache.grid, .gradients = gradients},
                       cache.samples);
     return found;
 }

@@ -27,7 +27,7 @@ PhotonMap even_photons(std::uint32_t count, Pcg32& random) {
         photon.position.x = random.uniform(-1.0f, 1.0f);
         photon.position.z = random.uniform(-1.0f, 1.0f);
         photon.normal = {0, 1, 0};
-        photon.power = Color(4.0f / static_cast<float>(count));
+        photon.power = Double3(4.0 / static_cast<double>(count));
     }
     return PhotonMap::build(photons);
 }

@@ -59,7 +59,7 @@ void put_photons(const TracedScene& scene, const PhotonTrace& trace, PhotonPath 
             static_cast<std::size_t>(y * scene.height) * static_cast<std::size_t>(scene.width) +
             static_cast<std::size_t>(x * scene.width);
         picture[pixel] += seen / (std::numbers::pi * pixel_area) *
-                          luminance(scene.lit.reflectance(hit->triangle) * Double3(photon.power));
+                          luminance(scene.lit.reflectance(hit->triangle) * photon.power);
     }
 }
 
