@@ -1,6 +1,7 @@
 #include "chapters/ch12_comparison/lab_options.hpp"
 
 #include "chapters/ch09_instancing_and_motion/instance_file.hpp"
+#include "chapters/ch12_comparison/camera_option.hpp"
 #include "chapters/ch12_comparison/lab_report.hpp"
 #include "chapters/ch12_comparison/output_check.hpp"
 #include "common/program/error.hpp"
@@ -10,11 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <thread>
 #include <utility>
 
@@ -67,40 +64,6 @@ std::vector<std::string> split(std::string_view text) {
     return parts;
 }
 
-/// As people write it: "10", "+10", " 0". @return nothing for what is no number; it may be infinite
-std::optional<float> number_in(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    float number = 0.0f;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc::result_out_of_range) return infinity;
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
-Camera parse_camera(const std::string& text) {
-    const auto fault = [&](std::string_view what) {
-        return usage_error(fmt::format("--camera {}: {}", text, what));
-    };
-    std::vector<float> numbers;
-    for (const std::string& part : split(text)) {
-        const std::optional<float> number = number_in(part);
-        if (!number) throw fault(fmt::format("'{}' is not a number", part));
-        if (!std::isfinite(*number)) throw fault(fmt::format("'{}' is not finite", part));
-        numbers.push_back(*number);
-    }
-    if (numbers.size() != 7) throw fault("give seven numbers ex,ey,ez,tx,ty,tz,fov");
-    Camera camera{.eye = {numbers[0], numbers[1], numbers[2]},
-                  .target = {numbers[3], numbers[4], numbers[5]},
-                  .field_of_view = numbers[6]};
-    if (camera.eye == camera.target) throw fault("eye and target are the same point");
-    if (!(camera.field_of_view > 0.0f && camera.field_of_view < 180.0f))
-        throw fault("the field of view must lie between 0 and 180 degrees");
-    if (camera.eye.x == camera.target.x && camera.eye.z == camera.target.z)
-        camera.up = {0.0f, 0.0f, -1.0f};  // looking straight up or down
-    return camera;
-}
-
 void add_file_options(CLI::App& app, LabOptions& options) {
     const auto named = [](const std::string& text) { return name_fault(text); };
     auto* mesh = app.add_option("--mesh", options.mesh, "a mesh file: OBJ, PLY, STL or OFF");
@@ -128,20 +91,15 @@ void add_file_options(CLI::App& app, LabOptions& options) {
         ->needs(instances);
 }
 
-/// Which rays are traced, but for --rays. @return --camera's numbers, when it has been parsed
-std::shared_ptr<std::optional<std::string>> add_ray_options(CLI::App& app, LabOptions& options) {
-    const auto numbers = std::make_shared<std::optional<std::string>>();
-    auto* camera =
-        app.add_option("--camera", *numbers,
-                       "eye, target, vertical field of view in degrees; default: the scene's own");
+/// Which rays are traced, but for --rays.
+void add_ray_options(CLI::App& app, LabOptions& options) {
+    auto* camera = add_camera_option(app, options.camera);
     auto* diffuse = add_whole_number(
         app, "--diffuse", 1, max_rays, [&](std::uint64_t n) { options.diffuse = n; },
         "trace N rays that leave the camera rays' hits, cosine-distributed (by --seed)");
     add_common_options(app, options.common);
-    camera->type_name("ex,ey,ez,tx,ty,tz,fov");
     app.get_option("--rays")->excludes(camera)->excludes(diffuse)->excludes(
         app.get_option("--size"));
-    return numbers;
 }
 
 /// What shows a pixel for each camera ray.
@@ -209,7 +167,7 @@ LabOptions parse_lab_options(int argc, char** argv) {
     CLI::App app("Any structure of the book on your own mesh and rays.", "lab");
     app.footer(formats);
     add_file_options(app, options);
-    const auto camera_numbers = add_ray_options(app, options);
+    add_ray_options(app, options);
     add_picture_options(app, options, heat_of);
     add_structure_options(app, options, structures);
     app.add_option("--query", query, "the nearest hit, or whether there is any")
@@ -236,7 +194,6 @@ LabOptions parse_lab_options(int argc, char** argv) {
     options.heatmap_of = heat_of == "tests" ? HeatOf::tests : HeatOf::nodes;
     if (LabOptions::is_stdout(options.json) && LabOptions::is_stdout(options.csv))
         throw usage_error("--json and --csv: only one can have standard output");
-    if (*camera_numbers) options.camera = parse_camera(**camera_numbers);
     if (options.common.threads == 0)
         options.common.threads = std::max(1u, std::thread::hardware_concurrency());
     if (options.build.threads == 0) options.build.threads = options.common.threads;

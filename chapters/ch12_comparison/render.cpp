@@ -43,10 +43,11 @@ constexpr double seconds_between_saves = 60.0;
 
 volatile std::sig_atomic_t end_signal = 0;
 
-/// Asks for an end after the pass; the next signal ends the program at once.
+/// Asks for an end after the pass; the next signal, also the other one, ends the program at once.
 void on_signal(int signal) {
     end_signal = signal;
-    std::signal(signal, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
 }
 
 const Structure& find_structure(std::span<const Structure> structures, const std::string& name) {
@@ -58,11 +59,11 @@ const Structure& find_structure(std::span<const Structure> structures, const std
 }
 
 LitScene load(const RenderOptions& options) {
-    if (options.mesh.empty()) return make_lit_scene(options.common.scene, options.common.seed);
-    // As a path, whatever scene has that name.
-    const std::filesystem::path file =
-        options.mesh.is_absolute() ? options.mesh : "." / options.mesh;
-    return make_lit_scene(file.string(), options.common.seed);
+    // A mesh as a path, whatever scene has that name.
+    const std::string spec = options.mesh.empty()         ? options.common.scene
+                             : options.mesh.is_absolute() ? options.mesh.string()
+                                                          : ("." / options.mesh).string();
+    return make_lit_scene(spec, options.common.seed, false, options.camera);
 }
 
 /// A number that other triangles, colours, lights or another camera would change.
@@ -98,7 +99,7 @@ std::string key_of(const RenderOptions& options, const LitScene& lit) {
 Film kept_film(const RenderOptions& options, const std::string& key) {
     if (!std::filesystem::exists(options.state()))
         throw input_error(options.state().string() + ": not there: begin without --resume");
-    return load_film_state(options.state(), key);
+    return load_film_state(options.state(), key, options.common.width, options.common.height);
 }
 
 /// What add_pass asks for each row.
@@ -114,8 +115,13 @@ RowEstimator path_estimator(const ErasedAccelerator& accelerator, const LitScene
     };
 }
 
-/// A caustic has edges: fewer photons blur them less. Other light has none.
-constexpr PhotonLookupConfig photon_lookup{.caustic = {.k = 30}, .indirect = {.k = 100}};
+/// A caustic has edges: fewer photons blur them less. Other light has none. The largest discs are
+/// for maps that hold few photons: without a bound they would tell of no light at all.
+PhotonLookupConfig photon_lookup(const LitScene& lit) {
+    const auto diagonal = static_cast<float>(diagonal_of(lit));
+    return {.caustic = {.k = 30, .largest_radius = 0.02f * diagonal},
+            .indirect = {.k = 100, .largest_radius = 0.25f * diagonal}};
+}
 
 /// Both maps from as many photons; each row has the memory of its searches.
 RowEstimator photon_estimator(const RenderOptions& options, const ErasedAccelerator& accelerator,
@@ -124,9 +130,9 @@ RowEstimator photon_estimator(const RenderOptions& options, const ErasedAccelera
     const auto maps = std::make_shared<const PhotonMaps>(PhotonMaps::build(
         accelerator, lit, lights,
         {.count = count, .seed = options.common.seed, .threads = options.common.threads}, count));
-    return [&, maps] {
-        return [&, lookup = std::make_shared<PhotonLookup>(*maps, photon_lookup)](
-                   const Ray& ray, Sampler& sampler) {
+    return [&, maps, asked = photon_lookup(lit)] {
+        return [&, lookup = std::make_shared<PhotonLookup>(*maps, asked)](const Ray& ray,
+                                                                          Sampler& sampler) {
             return photon_radiance(accelerator, lit, lights, *lookup, ray, sampler);
         };
     };

@@ -1,6 +1,7 @@
 #include "chapters/ch12_comparison/render_options.hpp"
 
 #include "chapters/ch11_sampling_and_caching/lit_scene.hpp"
+#include "chapters/ch12_comparison/camera_option.hpp"
 #include "chapters/ch12_comparison/output_check.hpp"
 #include "chapters/ch12_comparison/rays.hpp"
 #include "common/program/error.hpp"
@@ -30,7 +31,8 @@ Methods (chapter 11)
   cache    light from other surfaces is computed at few points and interpolated between them; less
            --accuracy, more points. For interiors without mirrors' caustics.
 Scenes: see --scene list. A mesh, and the book's other scenes, stand in a closed studio under a
-square light. Every structure with an exact test gives the same picture, byte for byte.
+square light; it holds the eye of --camera, too. Every structure with an exact test gives the same
+picture, byte for byte.
 Files
   --out    the picture, sRGB of --exposure E times the light. Beside it FILE.state holds all that
            has been summed up.
@@ -38,7 +40,7 @@ Files
 A picture is made in passes of one sample a pixel. After --time S, or after Ctrl-C (SIGINT) or
 SIGTERM, it ends with the pass in hand and writes whole files; a second Ctrl-C ends it at once.
 --resume goes on from FILE.state, to --samples N in all, as if there had been no break: the same
-bytes. It refuses the state of another scene, size, method or seed.
+bytes. It refuses the state of another scene, camera, size, method or seed.
 Exit codes: 0, 2 usage, 3 bad input, 4 cannot write, 130 or 143 ended by SIGINT or SIGTERM.)";
 
 /// A decimal number in [low, high] into `value`, whose default --help shows.
@@ -67,6 +69,7 @@ void add_file_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--scene", options.common.scene, "a scene by name, or 'list'")
         ->type_name("NAME[:SIZE]")
         ->excludes(mesh);
+    add_camera_option(app, options.camera);
     app.add_option("--out", options.out, "the picture")
         ->type_name("FILE.png")
         ->check(named(".png"));

@@ -2,12 +2,14 @@
 /// The command line of ./book render.
 #pragma once
 
+#include "common/camera.hpp"
 #include "common/program/options.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace space {
@@ -20,6 +22,7 @@ const char* render_method_name(RenderMethod method);
 struct RenderOptions {
     Options common;
     std::filesystem::path mesh;
+    std::optional<Camera> camera;  ///< none: the scene's own
     RenderMethod method = RenderMethod::path;
     std::size_t samples = 64;  ///< a pixel
     double seconds = std::numeric_limits<double>::infinity();

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 using namespace space;
@@ -158,6 +159,52 @@ TEST_CASE("SIGINT and SIGTERM end a picture after the pass, with whole files tha
     }
 }
 
+TEST_CASE("after one signal another ends the program at once, whichever they are") {
+    const Workbench bench;
+    // A pass that takes longer than anyone waits.
+    const Command long_pass = render.with("--scene box --size 4000x3000 --threads 1 --samples 1")
+                                  .with("--out", bench / "a.png");
+    for (const auto& [first, second] : {std::pair{SIGINT, SIGTERM}, std::pair{SIGTERM, SIGINT}}) {
+        const Command twice =
+            Command{.words = {"bash", "-c"}}
+                .with_word(
+                    "\"${@:3}\" > \"$2\" & job=$!; until grep -q method \"$2\"; do sleep 0.1; "
+                    "done; kill -" +
+                    std::to_string(first) + " $job; sleep 0.2; kill -" + std::to_string(second) +
+                    " $job; wait $job")
+                .with_word("bash")
+                .with_word("-")
+                .with(bench / "out")
+                .with(long_pass);
+        const Ended ended = run(twice);
+        INFO(ended.err);
+        CHECK(ended.code == 128 + second);
+        CHECK(ended.err.find("render:") == std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(bench / "a.png"));
+    }
+}
+
+TEST_CASE("a map of fewer photons than an estimate takes lights a picture, too") {
+    const Workbench bench;
+    const auto picture = [&](const char* photons) {
+        return bytes_of(small_box.with("--samples 1 --method photons --photons").with(photons),
+                        bench / "a.png");
+    };
+    CHECK(picture("20") != picture("10"));
+}
+
+TEST_CASE("--camera shows the scene from elsewhere, and a state from there is another picture's") {
+    const Workbench bench;
+    const Command one = render.with("--scene sphereflake:1 --size 16x12 --samples 1");
+    const Command high = one.with("--camera 0,30,1,0,0,0,40").with("--out", bench / "a.png");
+    CHECK(bytes_of(one, bench / "b.png") !=
+          bytes_of(one.with("--camera 0,30,1,0,0,0,40"), bench / "a.png"));
+    CHECK(run(high.with("--resume")).code == 0);
+    const Ended other = run(one.with("--resume").with("--out", bench / "a.png"));
+    CHECK(other.code == 3);
+    CHECK(other.err.find("of another picture") != std::string::npos);
+}
+
 TEST_CASE("--time ends a picture earlier, with at least one sample") {
     const Workbench bench;
     const Ended ended =
@@ -217,6 +264,12 @@ TEST_CASE("wrong input gets one clear line and its exit code, and leaves no file
         {scene.with(out).with("--threads 0"), 2, "--threads"},
         {render.with("--scene box --size 0x3").with(out), 2, "--size"},
         {render.with("--scene box --size 16384x16384").with(out), 2, "--size"},
+        {scene.with(out).with("--camera 0,0,9,0,0,8"), 2, "seven numbers"},
+        {scene.with(out).with("--camera nan,0,9,0,0,8,45"), 2, "nan"},
+        {scene.with(out).with("--camera 1,2,3,1,2,3,45"), 2, "eye"},
+        {scene.with(out).with("--camera 0,0,9,0,0,8,180"), 2, "field of view"},
+        {render.with("--mesh", bench / "mesh.ply").with(out).with("--camera 3e38,3e38,9,0,0,8,45"),
+         3, "too large"},
         {scene.with(out).with("--no-such-option"), 2, "--no-such-option"},
         {scene.with("--out", bench / "none/a.png"), 4, "there is no directory"},
         {scene.with("--out", bench / "file/a.png"), 4, "Not a directory"},
