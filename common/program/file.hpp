@@ -12,7 +12,8 @@ namespace space {
 std::string read_file(const std::filesystem::path& file);
 
 /// Writes a file without a name, flushes, and gives it the target's: after a full disk, a crash or
-/// a kill the old file stands, or none, and nothing beside it. Makes the directory if it is not there. @throws Error (bad_output)
+/// a kill the old file stands, or none, and nothing beside it. Makes the directory if it is not
+/// there. @throws Error (bad_output)
 void write_file(const std::filesystem::path& file, std::string_view content);
 
 /// To be asked before long work: tries to make the file that write_file will write, and leaves
