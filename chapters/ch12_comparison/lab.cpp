@@ -1,5 +1,6 @@
 #include "chapters/ch12_comparison/lab.hpp"
 
+#include "chapters/ch12_comparison/lab_advice.hpp"
 #include "chapters/ch12_comparison/lab_options.hpp"
 #include "chapters/ch12_comparison/lab_pictures.hpp"
 #include "chapters/ch12_comparison/lab_report.hpp"
@@ -296,6 +297,11 @@ int run_lab(std::span<const Structure> structures, int argc, char** argv) {
 
     const Subject subject = subject_of(options);
     print_remarks("lab", subject.scene.mesh.remarks);
+    if (options.advice) {
+        print_advice(subject.scene.name, subject.triangles, *options.advice, options.common.threads,
+                     out);
+        return static_cast<int>(ExitCode::ok);
+    }
     const RaySet set = make_rays(options, subject, structures);
     print_head(subject, options.flatten, set, has_peers(structures), out);
 

@@ -159,6 +159,69 @@ void add_build_options(CLI::App& app, BuildOptions& build) {
         ->default_str(fmt::format("{}", build.limits.placements));
 }
 
+/// @return nothing for what is no number
+std::optional<double> double_in(const std::string& text) {
+    double number = 0.0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, number);
+    if (error != std::errc{} || end != last) return std::nullopt;
+    return number;
+}
+
+/// A whole number, which may be written as 1e9.
+std::string fault_in_rays(const std::string& text) {
+    const std::optional<double> rays = double_in(text);
+    if (rays && *rays >= 1.0 && *rays <= 1e18 && *rays == std::floor(*rays)) return "";
+    return fmt::format("'{}' is no whole number from 1 to 1e18", text);
+}
+
+std::string fault_in_memory(const std::string& text) {
+    const std::optional<double> megabytes = double_in(text);
+    if (megabytes && *megabytes > 0.0 && *megabytes <= 1e12) return "";
+    return fmt::format("'{}' is no number of megabytes above 0 and up to 1e12", text);
+}
+
+/// What --advise was given, when it has been parsed.
+struct AdviceTexts {
+    bool advise = false, moving = false;
+    std::string rays, memory;
+
+    std::optional<AdviceRequest> request() const {
+        if (!advise) return std::nullopt;
+        if (rays.empty()) throw usage_error("--advise: for how many rays? add --rays-to-trace N");
+        AdviceRequest request{.rays = *double_in(rays), .moving = moving};
+        if (!memory.empty()) request.memory = 1e6 * *double_in(memory);
+        return request;
+    }
+};
+
+/// To be called last: --advise measures nothing, and excludes what is about measuring.
+std::shared_ptr<AdviceTexts> add_advice_options(CLI::App& app) {
+    const auto texts = std::make_shared<AdviceTexts>();
+    const std::vector<CLI::Option*> before = app.get_options();
+    auto* advise =
+        app.add_flag("--advise", texts->advise,
+                     "which structure does this mesh need? by a look at it, in a second");
+    for (CLI::Option* option : before) {
+        constexpr std::string_view allowed[] = {"--help",    "--mesh",          "--scene",
+                                                "--threads", "--build-threads", "--seed"};
+        if (std::ranges::find(allowed, option->get_name()) == std::end(allowed))
+            advise->excludes(option);
+    }
+    app.add_option("--rays-to-trace", texts->rays,
+                   "that the structure is built for; with --moving, in each frame")
+        ->type_name("N")
+        ->check(CLI::Validator(fault_in_rays, ""))
+        ->needs(advise);
+    app.add_flag("--moving", texts->moving, "the triangles move from frame to frame")
+        ->needs(advise);
+    app.add_option("--memory", texts->memory, "megabytes that the structure may hold")
+        ->type_name("MB")
+        ->check(CLI::Validator(fault_in_memory, ""))
+        ->needs(advise);
+    return texts;
+}
+
 }  // namespace
 
 LabOptions parse_lab_options(int argc, char** argv) {
@@ -182,6 +245,7 @@ LabOptions parse_lab_options(int argc, char** argv) {
     app.add_flag("--packets", options.packets,
                  "rays in packets of 64, by structures that know them (fast); others one by one");
     app.add_flag("--check", options.check, "compare the answers with naive tracing");
+    const auto advice = add_advice_options(app);
     parse_command_line(app, argc, argv);
     list_scenes_if_asked(options.common);
 
@@ -194,6 +258,7 @@ LabOptions parse_lab_options(int argc, char** argv) {
     options.heatmap_of = heat_of == "tests" ? HeatOf::tests : HeatOf::nodes;
     if (LabOptions::is_stdout(options.json) && LabOptions::is_stdout(options.csv))
         throw usage_error("--json and --csv: only one can have standard output");
+    options.advice = advice->request();
     if (options.common.threads == 0)
         options.common.threads = std::max(1u, std::thread::hardware_concurrency());
     if (options.build.threads == 0) options.build.threads = options.common.threads;

@@ -2,6 +2,7 @@
 /// The lab's command line.
 #pragma once
 
+#include "chapters/ch12_comparison/advice.hpp"
 #include "chapters/ch12_comparison/lab_pictures.hpp"
 #include "chapters/ch12_comparison/structures.hpp"
 #include "common/camera.hpp"
@@ -37,7 +38,8 @@ struct LabOptions {
     std::string sort;  ///< the column that orders the rows; empty: the order of --structure
     std::filesystem::path hits, json, csv, heatmap, picture;
     HeatOf heatmap_of = HeatOf::nodes;
-    std::uint64_t heatmap_max = 0;  ///< where its colours end; 0: where 99 of 100 pixels do
+    std::uint64_t heatmap_max = 0;        ///< where its colours end; 0: where 99 of 100 pixels do
+    std::optional<AdviceRequest> advice;  ///< instead of all that is measured
 
     bool instances_are_in_file() const {
         return instances.find_first_of("./") != std::string::npos;

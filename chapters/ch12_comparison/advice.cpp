@@ -1,0 +1,239 @@
+#include "chapters/ch12_comparison/advice.hpp"
+
+#include "chapters/ch12_comparison/kept_advice.hpp"  // in the build directory
+#include "common/program/error.hpp"
+#include "common/program/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace space {
+namespace {
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+    std::vector<std::string_view> fields;
+    for (std::size_t comma; (comma = line.find(',')) != line.npos; line.remove_prefix(comma + 1))
+        fields.push_back(line.substr(0, comma));
+    fields.push_back(line);
+    return fields;
+}
+
+/// What a line of the file holds: whose, what, and numbers.
+struct ModelLine {
+    std::string_view whose, what;
+    std::vector<double> numbers;
+};
+
+ModelLine parse_line(std::string_view line) {
+    const std::vector<std::string_view> fields = fields_of(line);
+    const auto fault = [&] { return input_error(fmt::format("model of advice: '{}'", line)); };
+    if (fields.size() < 3) throw fault();
+    ModelLine parsed{fields[0], fields[1], {}};
+    for (std::size_t i = 2; i < fields.size(); ++i) {
+        double number = 0.0;
+        const char* const last = fields[i].data() + fields[i].size();
+        const auto [end, error] = std::from_chars(fields[i].data(), last, number);
+        if (error != std::errc{} || end != last || !std::isfinite(number)) throw fault();
+        parsed.numbers.push_back(number);
+    }
+    const bool is_probe = parsed.whose == "probe";
+    if (parsed.numbers.size() != (is_probe ? 1 : 1 + feature_names.size())) throw fault();
+    return parsed;
+}
+
+void take(AdviceModel& model, const ModelLine& line) {
+    if (line.whose == "probe") {
+        (line.what == "build" ? model.probe.build_per_triangle : model.probe.per_ray) =
+            line.numbers.front();
+        return;
+    }
+    if (line.whose == "usual") {
+        std::copy(line.numbers.begin() + 1, line.numbers.end(), model.usual.begin());
+        return;
+    }
+    if (model.structures.empty() || model.structures.back().structure != line.whose)
+        model.structures.push_back({std::string(line.whose), {}, {}, {}});
+    StructureModel& structure = model.structures.back();
+    LinearModel& part = line.what == "build" ? structure.build
+                        : line.what == "ray" ? structure.ray
+                                             : structure.bytes;
+    part = {line.numbers.front(), {line.numbers.begin() + 1, line.numbers.end()}};
+}
+
+std::string line_of(std::string_view whose, std::string_view what, const LinearModel& part) {
+    std::string line = fmt::format("{},{},{:.9g}", whose, what, part.intercept);
+    for (const double weight : part.weights) line += fmt::format(",{:.9g}", weight);
+    return line + '\n';
+}
+
+const StructureModel& model_of(const AdviceModel& model, std::string_view structure) {
+    return *std::ranges::find(model.structures, structure, &StructureModel::structure);
+}
+
+/// What an unusual value of a feature looks like.
+std::string seen(std::size_t feature, double value) {
+    const double power = std::exp2(value);
+    switch (feature) {
+        case 0:
+            return fmt::format("{:.3g} triangles", power);
+        case 1:
+            return fmt::format("a random line meets {:.3g} boxes", power - 1.0);
+        case 2:
+            return fmt::format("the largest triangle is {:.3g} times the median", power);
+        case 3:
+            return fmt::format("{:.0f} % of the triangles lie across an axis", 100.0 * value);
+        case 4:
+            return fmt::format("{:.0f} % of the grid is empty", 100.0 * value);
+        default:
+            return fmt::format("triangles are {:.3g} times as long as high", power);
+    }
+}
+
+}  // namespace
+
+StructureCost StructureModel::cost(const SceneFeatures& features) const {
+    const auto x = values(features);
+    const double triangles = std::exp2(features.count);
+    return {.build_ns = std::exp2(build(x)) * triangles,
+            .ns_per_ray = std::exp2(ray(x)),
+            .bytes = std::exp2(bytes(x)) * triangles};
+}
+
+bool can_be_refitted(std::string_view structure) {
+    constexpr std::string_view trees[] = {"bvh-binned",    "bvh-sweep",  "bvh-optimised",
+                                          "bvh-bottom-up", "bvh-morton", "bvh-middle",
+                                          "bvh-median"};
+    return std::ranges::find(trees, structure) != std::end(trees);
+}
+
+// [advise]
+std::vector<Candidate> advise(const AdviceModel& model, const SceneFeatures& features,
+                              const AdviceRequest& request, const Calibration& here) {
+    const double refit_ns = here.refit_ns_per_triangle * std::exp2(features.count);
+    std::vector<Candidate> candidates;
+    for (const StructureModel& structure : model.structures) {
+        Candidate candidate{structure.structure, structure.cost(features)};
+        StructureCost& cost = candidate.cost;
+        if (request.memory && cost.bytes > *request.memory) continue;
+        cost.build_ns *= here.build;
+        cost.ns_per_ray *= here.ray;
+        candidate.is_refitted =
+            request.moving && can_be_refitted(structure.structure) && refit_ns < cost.build_ns;
+        if (candidate.is_refitted) cost.build_ns = refit_ns;
+        candidate.total_ns = cost.total_ns(request.rays);
+        candidates.push_back(std::move(candidate));
+    }
+    std::ranges::stable_sort(candidates, {}, &Candidate::total_ns);
+    return candidates;
+}
+// [advise]
+
+double break_even_rays(const StructureCost& a, const StructureCost& b) {
+    const double saved_ns = a.ns_per_ray - b.ns_per_ray, dearer_ns = b.build_ns - a.build_ns;
+    const double rays = dearer_ns / saved_ns;
+    return rays > 0.0 ? rays : std::numeric_limits<double>::infinity();
+}
+
+std::string reason(const AdviceModel& model, const SceneFeatures& features,
+                   std::span<const Candidate> candidates) {
+    const Candidate& first = candidates[0];
+    if (candidates.size() == 1) return "No other structure fits in the memory.";
+    const Candidate& second = candidates[1];
+    const double build = second.cost.build_ns / first.cost.build_ns;
+    const double ray = second.cost.ns_per_ray / first.cost.ns_per_ray;
+    const double rays = break_even_rays(first.cost, second.cost);
+    const auto times = [](double ratio, std::string_view more, std::string_view less) {
+        return ratio >= 1.0 ? fmt::format("{:.2f} times as {}", ratio, more)
+                            : fmt::format("{:.2f} times as {}", 1.0 / ratio, less);
+    };
+    std::string text = fmt::format("{} takes {} to build and {} a ray", second.structure,
+                                   times(build, "long", "short"), times(ray, "long", "short"));
+    if (std::isfinite(rays))
+        text += fmt::format(": it pays {} {:.2g} rays.", ray < 1.0 ? "from" : "up to", rays);
+    else
+        text += ": it never pays.";
+
+    // The term that decided is the one in which the first is ahead: where it is so in both, the
+    // larger difference.
+    const double ahead_in_build = second.cost.build_ns - first.cost.build_ns;
+    const double ahead_in_rays = (second.total_ns - first.total_ns) - ahead_in_build;
+    const bool by_build = ahead_in_build > ahead_in_rays;
+    if (by_build && (first.is_refitted || second.is_refitted)) return text;
+    const StructureModel &a = model_of(model, first.structure),
+                         &b = model_of(model, second.structure);
+    const LinearModel &of_a = by_build ? a.build : a.ray, &of_b = by_build ? b.build : b.ray;
+    const auto x = values(features);
+    std::size_t most = 0;
+    double octaves = 0.0;
+    for (std::size_t j = 0; j < x.size(); ++j) {
+        const double gain = (of_b.weights[j] - of_a.weights[j]) * (x[j] - model.usual[j]);
+        if (gain > octaves) {
+            octaves = gain;
+            most = j;
+        }
+    }
+    if (octaves > 0.0)
+        text += fmt::format(
+            " What speaks most for {}: {} (usual here: {}); beside {} that makes "
+            "its {} {:.2f} times as short.",
+            first.structure, seen(most, x[most]), seen(most, model.usual[most]), second.structure,
+            by_build ? "build" : "rays", std::exp2(octaves));
+    return text;
+}
+
+AdviceModel read_advice(std::string_view csv) {
+    AdviceModel model;
+    while (!csv.empty()) {
+        const std::size_t end = std::min(csv.find('\n'), csv.size());
+        const std::string_view line = csv.substr(0, end);
+        csv.remove_prefix(std::min(end + 1, csv.size()));
+        constexpr std::string_view machine = "# machine: ", date = "# date: ";
+        if (line.starts_with(machine))
+            model.machine = line.substr(machine.size());
+        else if (line.starts_with(date))
+            model.date = line.substr(date.size());
+        else if (!line.empty() && !line.starts_with('#') && !line.starts_with("structure,"))
+            take(model, parse_line(line));
+    }
+    if (model.structures.empty()) throw input_error("model of advice: it knows no structure");
+    const std::size_t columns = feature_names.size();
+    for (const StructureModel& structure : model.structures)
+        for (const LinearModel* part : {&structure.build, &structure.ray, &structure.bytes})
+            if (part->weights.size() != columns)
+                throw input_error(
+                    fmt::format("model of advice: a line of {} is missing", structure.structure));
+    return model;
+}
+
+std::string advice_csv(const AdviceModel& model) {
+    std::string csv = fmt::format(
+        "# log2 of nanoseconds a triangle (build) and a ray, of bytes a triangle\n"
+        "# machine: {}\n# date: {}\nstructure,figure,intercept",
+        model.machine, model.date);
+    for (const std::string_view name : feature_names) csv += fmt::format(",{}", name);
+    csv += fmt::format("\nprobe,build,{:.9g}\nprobe,ray,{:.9g}\n", model.probe.build_per_triangle,
+                       model.probe.per_ray);
+    csv += line_of("usual", "features", {0.0, {model.usual.begin(), model.usual.end()}});
+    for (const StructureModel& structure : model.structures) {
+        csv += line_of(structure.structure, "build", structure.build);
+        csv += line_of(structure.structure, "ray", structure.ray);
+        csv += line_of(structure.structure, "bytes", structure.bytes);
+    }
+    return csv;
+}
+
+AdviceModel kept_advice() {
+    if (kept_advice_csv.empty())
+        throw input_error(
+            "--advise: this lab was compiled without figures/measured/ch12_advice.csv, "
+            "which ./book run 12 --update makes");
+    return read_advice(kept_advice_csv);
+}
+
+}  // namespace space
