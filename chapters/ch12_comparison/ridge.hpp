@@ -49,11 +49,11 @@ inline std::vector<double> solve_symmetric(std::vector<std::vector<double>> a,
 }
 
 // [ridge]
-/// The model with the least mean square error + penalty times the weights' squares, each weight in
-/// units of its column's standard deviation. A column of equal values gets the weight 0. There must
-/// be a row, and all of the same length.
+/// The model with the least mean square error + the sum of penalties[j] times the square of
+/// weights[j], in units of its column's standard deviation. A column of equal values gets the
+/// weight 0. There must be a row, and all as long as the penalties.
 inline LinearModel fit_ridge(std::span<const std::vector<double>> rows, std::span<const double> y,
-                             double penalty) {
+                             std::span<const double> penalties) {
     const std::size_t columns = rows.front().size();
     const auto count = static_cast<double>(rows.size());
     double mean_y = 0.0;
@@ -79,7 +79,7 @@ inline LinearModel fit_ridge(std::span<const std::vector<double>> rows, std::spa
             b[j] += z * (y[i] - mean_y) / count;
             for (std::size_t k = 0; k < columns; ++k) a[j][k] += z * standard(rows[i], k) / count;
         }
-    for (std::size_t j = 0; j < columns; ++j) a[j][j] += penalty;
+    for (std::size_t j = 0; j < columns; ++j) a[j][j] += penalties[j];
     LinearModel model{mean_y, solve_symmetric(a, b)};
     for (std::size_t j = 0; j < columns; ++j) {
         if (model.weights[j] != 0.0) model.weights[j] /= deviation[j];

@@ -157,14 +157,17 @@ TEST_CASE("regression finds the model that made the data") {
         y.push_back(2.5 - 3.0 * row[0] + 0.5 * row[1] + 0.125 * row[3]);
         rows.push_back(row);
     }
-    const LinearModel exact = fit_ridge(rows, y, 0.0);
+    const auto fit = [&](double penalty) {
+        return fit_ridge(rows, y, std::vector<double>(4, penalty));
+    };
+    const LinearModel exact = fit(0.0);
     CHECK(exact.intercept == Approx(2.5));
     CHECK(exact.weights[0] == Approx(-3.0));
     CHECK(exact.weights[1] == Approx(0.5));
     CHECK(exact.weights[2] == Approx(0.0).margin(1e-12));
     CHECK(exact.weights[3] == Approx(0.125));
     // The larger the penalty the smaller the weights, down to the mean.
-    const LinearModel some = fit_ridge(rows, y, 1.0), all = fit_ridge(rows, y, 1e12);
+    const LinearModel some = fit(1.0), all = fit(1e12);
     CHECK(std::abs(some.weights[0]) < 3.0);
     CHECK(std::abs(some.weights[0]) > 1.0);
     double mean = 0.0;
@@ -183,13 +186,14 @@ TEST_CASE("columns that say nothing, or nothing new, do no harm") {
         y.push_back(1.0 + 2.0 * a + 3.0 * b);
     }
     for (const double penalty : {0.0, 1e-6}) {
-        const LinearModel model = fit_ridge(rows, y, penalty);
+        const LinearModel model = fit_ridge(rows, y, std::vector<double>(5, penalty));
         CHECK(model.weights[1] == 0.0);
         CHECK(model.weights[4] == 0.0);
         for (std::size_t i = 0; i < rows.size(); ++i)
             CHECK(model(rows[i]) == Approx(y[i]).epsilon(1e-5));
     }
     // One row says no more than its own value.
-    const LinearModel single = fit_ridge(std::span(rows).first(1), std::span(y).first(1), 0.0);
+    const LinearModel single =
+        fit_ridge(std::span(rows).first(1), std::span(y).first(1), std::vector<double>(5));
     CHECK(single(rows[1]) == y[0]);
 }

@@ -1,0 +1,50 @@
+/// @file
+/// Fits the model of the advice on half of the compared scenes, and judges it by the other half and
+/// by scenes from files.
+#pragma once
+
+#include "chapters/ch12_comparison/advice.hpp"
+#include "chapters/ch12_comparison/measured/advice_data.hpp"
+#include "chapters/ch12_comparison/measured/break_even.hpp"
+#include "chapters/ch12_comparison/measured/comparison_data.hpp"
+#include "common/program/numbers.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace space::ch12 {
+
+/// A block of the comparison as the advice sees it.
+struct KnownScene {
+    SeenScene seen;
+    SceneFeatures features;
+    std::vector<std::pair<std::string, StructureCost>> costs;  ///< of our structures that stand
+    std::vector<CostLine> lines;                               ///< what counts in hindsight
+};
+
+/// Whether the scene of the comparison is one to fit with: of the k-th kind the i-th size where
+/// i + k is even. Both halves have each kind. Those from files are for judging alone.
+bool is_for_fitting(const std::string& scene, const std::string& spec);
+
+/// Timed blocks of our structures, without bvh-instanced, which wants instances.
+std::vector<KnownScene> known_scenes(const Comparison& comparison, std::uint64_t seed);
+
+/// The model of the structures that stand on all of these scenes of up to 100,000 triangles. Growth
+/// with the number of triangles is free, each other feature's weight has the penalty; without one
+/// they are not looked at.
+AdviceModel fit_advice(std::span<const KnownScene* const> scenes, std::optional<double> penalty);
+
+/// Advice for 1, 10, ... 10^10 rays through the scene. What was not measured there is passed over.
+std::vector<AdviceCase> ask(const AdviceModel& model, const KnownScene& scene);
+
+/// Empty where fewer than eight scenes are there to fit with.
+JudgedAdvice judge_advice(const Comparison& comparison, std::uint64_t seed);
+
+/// What the page quotes.
+void quote_advice(const JudgedAdvice& judged, Numbers& numbers);
+
+}  // namespace space::ch12
