@@ -46,6 +46,7 @@ struct JudgedAdvice {
     std::size_t chosen = 0;             ///< of these
     /// Questions to the chosen one, once it was fitted on its whole half.
     std::vector<AdviceCase> fitted, other_half, fetched;
+    double look_ms = 0.0;  ///< that a look at a million triangles took at most
     std::string
         model_csv;  ///< for figures/measured/ch12_advice.csv; empty where too little is known
 };

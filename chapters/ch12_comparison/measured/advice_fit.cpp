@@ -2,14 +2,16 @@
 
 #include "chapters/ch12_comparison/machine_probe.hpp"
 #include "chapters/ch12_comparison/measured/compared_scenes.hpp"
-
-#include <fmt/format.h>
+#include "common/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace space::ch12 {
 namespace {
@@ -21,7 +23,7 @@ using Scenes = std::vector<const KnownScene*>;
 /// Costs of structures over a scene that it has not seen.
 using Foretold = std::function<std::vector<Candidate>(const KnownScene&, double rays)>;
 
-bool is_from_file(const std::string& scene) {
+bool comes_from_file(const std::string& scene) {
     const ComparedScene& compared = compared_scene(scene);
     return compared.specs.size() == 1;
 }
@@ -170,17 +172,6 @@ std::vector<Way> ways() {
             {"neighbours", "by the three scenes that look most alike", by_neighbours}};
 }
 
-AdviceMethod summary(std::string name, std::string about, std::span<const AdviceCase> cases) {
-    AdviceMethod method{std::move(name), std::move(about), cases.size(), 0, 0.0, 1.0};
-    for (const AdviceCase& c : cases) {
-        method.good += c.is_good();
-        method.mean_ratio += std::log2(c.ratio()) / static_cast<double>(cases.size());
-        method.worst_ratio = std::max(method.worst_ratio, c.ratio());
-    }
-    method.mean_ratio = std::exp2(method.mean_ratio);
-    return method;
-}
-
 /// Each kind of scene is asked about by a model that knows only the others.
 AdviceMethod cross_validated(const Way& way, const Scenes& scenes) {
     std::set<std::string> kinds;
@@ -197,13 +188,25 @@ AdviceMethod cross_validated(const Way& way, const Scenes& scenes) {
                 cases.insert(cases.end(), asked.begin(), asked.end());
             }
     }
-    return summary(way.name, way.about, cases);
+    return summary_of_cases(way.name, way.about, cases);
 }
 
 }  // namespace
 
+AdviceMethod summary_of_cases(std::string name, std::string about,
+                              std::span<const AdviceCase> cases) {
+    AdviceMethod method{std::move(name), std::move(about), cases.size(), 0, 0.0, 1.0};
+    for (const AdviceCase& c : cases) {
+        method.good += c.is_good();
+        method.mean_ratio += std::log2(c.ratio()) / static_cast<double>(cases.size());
+        method.worst_ratio = std::max(method.worst_ratio, c.ratio());
+    }
+    method.mean_ratio = std::exp2(method.mean_ratio);
+    return method;
+}
+
 bool is_for_fitting(const std::string& scene, const std::string& spec) {
-    if (is_from_file(scene)) return false;
+    if (comes_from_file(scene)) return false;
     const auto all = compared_scenes();
     const auto kind = std::ranges::find(all, scene, &ComparedScene::name);
     const auto size = std::ranges::find(kind->specs, spec);
@@ -228,13 +231,15 @@ std::vector<KnownScene> known_scenes(const Comparison& comparison, std::uint64_t
         for (const CostLine& line : cost_lines(rows, false))
             if (line.most_rays > 10.0) scene.lines.push_back(line);
         const ComparedSubject subject = make_subject(rows[0].scene, rows[0].spec, seed);
+        Stopwatch stopwatch;
         scene.features = features_of(subject.triangles);
+        scene.look_ms = stopwatch.lap().count();
         const auto x = values(scene.features);
         scene.seen = {rows[0].scene,
                       rows[0].spec,
                       rows[0].triangles,
                       {x.begin(), x.end()},
-                      is_from_file(rows[0].scene),
+                      comes_from_file(rows[0].scene),
                       is_for_fitting(rows[0].scene, rows[0].spec)};
         known.push_back(std::move(scene));
     }
@@ -277,14 +282,17 @@ JudgedAdvice judge_advice(const Comparison& comparison, std::uint64_t seed) {
     Scenes fitted;
     for (const KnownScene& scene : known) {
         judged.scenes.push_back(scene.seen);
+        const double million = 1e-6 * static_cast<double>(scene.seen.triangles);
+        if (million > 0.1) judged.look_ms = std::max(judged.look_ms, scene.look_ms / million);
         if (scene.seen.is_fitted) fitted.push_back(&scene);
     }
     if (fitted.size() < 8) return judged;
     const std::vector<Way> all = ways();
     for (const Way& way : all) judged.methods.push_back(cross_validated(way, fitted));
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (all[i].penalty >= 0.0 && (all[judged.chosen].penalty < 0.0 ||
-                                      judged.methods[i].good > judged.methods[judged.chosen].good))
+        if (all[i].is_regression &&
+            (!all[judged.chosen].is_regression ||
+             judged.methods[i].mean_ratio < judged.methods[judged.chosen].mean_ratio))
             judged.chosen = i;
     const Way& chosen = all[judged.chosen];
     AdviceModel model = fit_advice(fitted, chosen.penalty);

@@ -22,6 +22,7 @@ namespace space::ch12 {
 struct KnownScene {
     SeenScene seen;
     SceneFeatures features;
+    double look_ms = 0.0;                                      ///< that looking at it took
     std::vector<std::pair<std::string, StructureCost>> costs;  ///< of our structures that stand
     std::vector<CostLine> lines;                               ///< what counts in hindsight
 };
@@ -40,6 +41,9 @@ AdviceModel fit_advice(std::span<const KnownScene* const> scenes, std::optional<
 
 /// Advice for 1, 10, ... 10^10 rays through the scene. What was not measured there is passed over.
 std::vector<AdviceCase> ask(const AdviceModel& model, const KnownScene& scene);
+
+AdviceMethod summary_of_cases(std::string name, std::string about,
+                              std::span<const AdviceCase> cases);
 
 /// Empty where fewer than eight scenes are there to fit with.
 JudgedAdvice judge_advice(const Comparison& comparison, std::uint64_t seed);
