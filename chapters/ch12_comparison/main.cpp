@@ -4,6 +4,7 @@
 ///     ch12_comparison render --scene room --out room.png
 ///     ch12_comparison compare --out DIR      (the measuring alone, into a CSV file)
 #include "chapters/ch12_comparison/lab.hpp"
+#include "chapters/ch12_comparison/measured/advice_fit.hpp"
 #include "chapters/ch12_comparison/measured/comparison.hpp"
 #include "chapters/ch12_comparison/measured/comparison_tables.hpp"
 #include "chapters/ch12_comparison/measured/lab_counts.hpp"
@@ -11,6 +12,7 @@
 #include "common/measure.hpp"
 #include "common/program/chapter.hpp"
 #include "common/program/error.hpp"
+#include "common/program/file.hpp"
 #include "common/program/numbers.hpp"
 #include "common/program/options.hpp"
 #include "common/program/provenance.hpp"
@@ -89,6 +91,11 @@ int run(int argc, char** argv) {
     Numbers numbers;
     if (!options.small) count_lab(numbers);
     quote_comparison(comparison, times, numbers);
+    if (times) {
+        const JudgedAdvice& advice = measured_once<measure_advice>(options);
+        quote_advice(advice, numbers);
+        write_file(options.out / "ch12_advice.csv", advice.model_csv);
+    }
     numbers.write(options.out, provenance(std::string(this_chapter.name), options));
     if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);

@@ -2,6 +2,7 @@
 
 #include "chapters/ch12_comparison/machine_probe.hpp"
 #include "chapters/ch12_comparison/measured/compared_scenes.hpp"
+#include "chapters/ch12_comparison/measured/comparison.hpp"
 #include "common/measure.hpp"
 
 #include <algorithm>
@@ -308,6 +309,10 @@ JudgedAdvice judge_advice(const Comparison& comparison, std::uint64_t seed) {
         cases.insert(cases.end(), asked.begin(), asked.end());
     }
     return judged;
+}
+
+JudgedAdvice measure_advice(const Options& options) {
+    return judge_advice(measured_once<measure_comparison>(options), options.seed);
 }
 
 }  // namespace space::ch12

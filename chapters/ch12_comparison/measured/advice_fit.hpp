@@ -8,6 +8,7 @@
 #include "chapters/ch12_comparison/measured/break_even.hpp"
 #include "chapters/ch12_comparison/measured/comparison_data.hpp"
 #include "common/program/numbers.hpp"
+#include "common/program/options.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -47,6 +48,9 @@ AdviceMethod summary_of_cases(std::string name, std::string about,
 
 /// Empty where fewer than eight scenes are there to fit with.
 JudgedAdvice judge_advice(const Comparison& comparison, std::uint64_t seed);
+
+/// By what options ask for, measured once.
+JudgedAdvice measure_advice(const Options& options);
 
 /// What the page quotes.
 void quote_advice(const JudgedAdvice& judged, Numbers& numbers);

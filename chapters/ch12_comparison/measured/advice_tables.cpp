@@ -102,11 +102,12 @@ void quote_advice(const JudgedAdvice& judged, Numbers& numbers) {
     std::vector<AdviceMethod> summaries;
     for (std::size_t i = 0; i < 4; ++i) {
         const auto& [name, cases] = parts[i];
-        if (cases->empty()) continue;
-        summaries.push_back(summary_of_cases(name, about[i], *cases));
-        const AdviceMethod& m = summaries.back();
+        const AdviceMethod m = summary_of_cases(name, about[i], *cases);
+        if (!cases->empty()) summaries.push_back(m);
         const auto number = [&](const char* what, double value, const std::string& text) {
-            numbers.time(fmt::format("advice_{}_{}", name, what), value, text);
+            const bool is_known = !cases->empty();  // there may be no scene from a file
+            numbers.time(fmt::format("advice_{}_{}", name, what), is_known ? value : 0.0,
+                         is_known ? text : "–");
         };
         number("questions", static_cast<double>(m.cases), with_commas(m.cases));
         number("good", static_cast<double>(m.good), with_commas(m.good));
