@@ -43,10 +43,10 @@ struct ProbeTimes {
 
 /// All that is kept of the measurements.
 struct AdviceModel {
-    std::vector<StructureModel> structures;
+    std::vector<StructureModel> structures = {};
     std::array<double, feature_names.size()> usual{};  ///< features: means over the scenes fitted
-    ProbeTimes probe;                                  ///< of the machine that it was fitted on
-    std::string machine, date;
+    ProbeTimes probe = {};                             ///< of the machine that it was fitted on
+    std::string machine = {}, date = {};
 };
 
 /// What a reader asks for.

@@ -61,6 +61,13 @@ TEST_CASE("the features of one right triangle are those worked out by hand") {
     CHECK(g.slenderness == Approx(std::log2(2.0 / std::sqrt(3.0))));
 }
 
+TEST_CASE("the features of the page's three triangles are those of the page") {
+    const std::vector<Triangle> three{corner_at({0, 0, 0}, 1.0f), corner_at({1, 1, 0}, 1.0f),
+                                      corner_at({0, 0, 0}, 2.0f)};
+    const SceneFeatures f = features_of(three);
+    CHECK(values(f) == std::array{std::log2(3.0), std::log2(2.5), 1.0, 1.0, 0.0, 1.0});
+}
+
 TEST_CASE("overlap counts the boxes that a random line meets") {
     // Seven times the same box, which is the scene's.
     const std::vector<Triangle> pile(7, corner_at({0, 0, 0}, 1.0f));

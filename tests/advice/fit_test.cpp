@@ -1,0 +1,126 @@
+// The model is fitted to scenes whose costs are made up, and so finds what made them.
+#include "chapters/ch12_comparison/measured/advice_fit.hpp"
+#include "chapters/ch12_comparison/measured/compared_scenes.hpp"
+#include "common/pcg32.hpp"
+#include "tests/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace space;
+using namespace space::ch12;
+
+namespace {
+
+/// Scenes on which "slow" and "quick" cost what linear models say.
+std::vector<KnownScene> made_up_scenes(std::size_t count) {
+    const StructureModel quick{
+        "quick", {5, {0.1, 0, 0, 0, 0, 0}}, {7, {0.3, 0.5, 0, 0, 0, 0}}, {6, {0, 0, 0, 0, 0, 0}}};
+    const StructureModel slow{"slow",
+                              {9, {0.2, 0, 0, 0, 0, 0.1}},
+                              {6, {0.1, 0.2, 0, 0, 1, 0}},
+                              {7, {0, 0.5, 0, 0, 0, 0}}};
+    Pcg32 random(9);
+    std::vector<KnownScene> scenes(count);
+    for (KnownScene& scene : scenes) {
+        SceneFeatures& f = scene.features;
+        for (double* feature :
+             {&f.count, &f.overlap, &f.spread, &f.alignment, &f.emptiness, &f.slenderness})
+            *feature = random.uniform_double();
+        f.count = 9.0 + 7.0 * f.count;
+        f.overlap *= 5.0;
+        const auto x = values(f);
+        scene.seen = {"soup",
+                      "soup:1000",
+                      static_cast<std::uint64_t>(std::exp2(f.count)),
+                      {x.begin(), x.end()},
+                      false,
+                      true};
+        for (const StructureModel& model : {quick, slow}) {
+            const StructureCost cost = model.cost(f);
+            scene.costs.emplace_back(model.structure, cost);
+            scene.lines.push_back({model.structure, cost.build_ns, cost.ns_per_ray});
+        }
+    }
+    return scenes;
+}
+
+std::vector<const KnownScene*> pointers(const std::vector<KnownScene>& scenes) {
+    std::vector<const KnownScene*> all;
+    for (const KnownScene& scene : scenes) all.push_back(&scene);
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("a model without a penalty finds what made the costs, and is right about new scenes") {
+    const std::vector<KnownScene> scenes = made_up_scenes(60);
+    const std::vector<const KnownScene*> all = pointers(scenes);
+    const AdviceModel model = fit_advice(std::span(all).first(30), 0.0);
+    REQUIRE(model.structures.size() == 2);
+    CHECK(model.structures[0].structure == "quick");
+    CHECK(model.structures[0].ray.weights[1] == Approx(0.5));
+    CHECK(model.structures[1].build.weights[5] == Approx(0.1));
+    CHECK(model.structures[1].bytes.intercept == Approx(7.0));
+    for (std::size_t i = 30; i < 60; ++i)
+        for (const AdviceCase& c : ask(model, scenes[i])) {
+            CAPTURE(i, c.rays);
+            REQUIRE(c.ratio() == Approx(1.0));
+        }
+}
+
+TEST_CASE("without features a model knows the number of triangles alone") {
+    const std::vector<KnownScene> scenes = made_up_scenes(30);
+    const AdviceModel model = fit_advice(pointers(scenes), {});
+    for (const StructureModel& structure : model.structures)
+        for (std::size_t j = 1; j < feature_names.size(); ++j)
+            CHECK(structure.ray.weights[j] == 0.0);
+    CHECK(model.structures[0].build.weights[0] == Approx(0.1));
+}
+
+TEST_CASE("a structure that fell on a small scene is no candidate, on a large one it may") {
+    std::vector<KnownScene> scenes = made_up_scenes(20);
+    scenes[3].seen.triangles = 500'000;
+    std::erase_if(scenes[3].costs, [](const auto& cost) { return cost.first == "slow"; });
+    CHECK(fit_advice(pointers(scenes), 1.0).structures.size() == 2);
+    scenes[3].seen.triangles = 100'000;
+    const AdviceModel model = fit_advice(pointers(scenes), 1.0);
+    REQUIRE(model.structures.size() == 1);
+    CHECK(model.structures[0].structure == "quick");
+}
+
+TEST_CASE("what was not measured on a scene is passed over when it is judged") {
+    std::vector<KnownScene> scenes = made_up_scenes(20);
+    const AdviceModel model = fit_advice(pointers(scenes), 0.0);
+    std::erase_if(scenes[0].lines, [](const CostLine& line) { return line.name == "slow"; });
+    for (const AdviceCase& c : ask(model, scenes[0])) CHECK(c.advised == "quick");
+}
+
+TEST_CASE("both halves have every kind that has two sizes, and neither has a file") {
+    for (const ComparedScene& scene : compared_scenes()) {
+        CAPTURE(scene.name);
+        const auto fitted = std::ranges::count_if(scene.specs, [&](const std::string& spec) {
+            return is_for_fitting(std::string(scene.name), spec);
+        });
+        const auto all = static_cast<std::ptrdiff_t>(scene.specs.size());
+        if (all == 1)
+            CHECK(fitted == 0);
+        else
+            CHECK((fitted == all / 2 || fitted == all - all / 2));
+    }
+}
+
+TEST_CASE("a summary counts what is good, and its mean is that of the logarithms") {
+    std::vector<AdviceCase> cases(2);
+    cases[0].advised_ns = cases[0].best_ns = 5.0;
+    cases[1].advised_ns = 20.0;
+    cases[1].best_ns = 5.0;
+    const AdviceMethod summary = summary_of_cases("", "", cases);
+    CHECK(summary.cases == 2);
+    CHECK(summary.good == 1);
+    CHECK(summary.mean_ratio == 2.0);
+    CHECK(summary.worst_ratio == 4.0);
+    CHECK(judge_advice({}, 1).model_csv.empty());
+}
