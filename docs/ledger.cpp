@@ -115,4 +115,24 @@ std::filesystem::path newest_results(const std::filesystem::path& root,
     return own_counts && last_write_time(own) > last_write_time(committed) ? own : committed;
 }
 
+std::vector<ClaimVerdict> read_verdicts(const std::filesystem::path& root,
+                                        const std::filesystem::path& runs) {
+    const std::vector<Claim> claims = read_claims(root / "docs/claims.json");
+    std::vector<ClaimVerdict> verdicts;
+    for (const Chapter& chapter : read_chapters(root)) {
+        if (!chapter.here) continue;
+        Answers answers;
+        if (const auto file = newest_results(root, runs, chapter.number); !file.empty())
+            answers = read_answers(file);
+        for (const Claim& claim : claims) {
+            if (std::ranges::find(claim.chapters, chapter.number) == claim.chapters.end()) continue;
+            const auto answer = std::ranges::find(answers.answers, claim.id, &Answer::claim);
+            verdicts.push_back({.claim = claim,
+                                .chapter = chapter.number,
+                                .verdict = answer == answers.answers.end() ? "" : answer->verdict});
+        }
+    }
+    return verdicts;
+}
+
 }  // namespace space::docs

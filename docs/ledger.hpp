@@ -59,4 +59,15 @@ std::vector<std::string> faults(const std::vector<Claim>& claims, int chapter,
 std::filesystem::path newest_results(const std::filesystem::path& root,
                                      const std::filesystem::path& runs, int chapter);
 
+/// What one chapter's program answered to a claim.
+struct ClaimVerdict {
+    Claim claim;
+    int chapter;
+    std::string verdict;  ///< empty where there is no answer yet
+};
+
+/// The claims of all chapters that are here, chapter after chapter, with the newest verdicts.
+std::vector<ClaimVerdict> read_verdicts(const std::filesystem::path& root,
+                                        const std::filesystem::path& runs);
+
 }  // namespace space::docs

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -324,7 +325,8 @@ constexpr const char* ledger_head =
     "it "
     "with what it measured, and computes the verdict by a rule that is stated here; no verdict "
     "is typed in. "
-    "The sources: \\ref bibliography.\n\n";
+    "The sources: \\ref bibliography. Lists by verdict: \\ref ch12_got_right, \\ref "
+    "ch12_errata.\n\n";
 
 std::string ledger_page(const Places& places, const std::vector<Chapter>& chapters,
                         const std::vector<Claim>& claims) {
@@ -373,8 +375,12 @@ std::string ledger_page(const Places& places, const std::vector<Chapter>& chapte
         tally +=
             fmt::format("<p>{} {}</p>", std::ranges::count(std::views::values(verdicts), verdict),
                         badge(verdict));
-    text += raw(fmt::format("<div class=\"tally\">{}<p>{} {}</p></div>\n", tally,
-                            claims.size() - verdicts.size(), badge("no answer yet")));
+    const std::size_t open = claims.size() - verdicts.size();
+    text += open == 0
+                ? fmt::format("All {} claims are answered.\n\n", claims.size())
+                : fmt::format("{} of {} claims are answered.\n\n", verdicts.size(), claims.size());
+    text += raw(fmt::format("<div class=\"tally\">{}<p>{} {}</p></div>\n", tally, open,
+                            badge("no answer yet")));
     text += sections;
     if (!to_come.empty())
         text += "\\section claims_to_come Chapters to come\n" +
@@ -422,11 +428,74 @@ std::string layout(const Places& places, const std::vector<Chapter>& chapters) {
 
 }  // namespace
 
-/// The texts that people write, docs/*.dox and the chapters', with their measured numbers, and with
-/// the table of files that the chapter's README.md holds for \\files.
+/// How many claims of each source have which verdict.
+static std::string tally_of_claims(const std::vector<ClaimVerdict>& verdicts) {
+    constexpr std::array words{"confirmed", "depends", "refuted"};
+    std::map<std::string, std::string> of_claim;
+    std::map<std::string, std::map<std::string, int>> of_source;
+    for (const ClaimVerdict& verdict : verdicts) of_claim[verdict.claim.id] = verdict.verdict;
+    std::vector<std::string> sources;  // in the order of claims.json, by their first claim
+    for (const ClaimVerdict& verdict : verdicts) {
+        const std::string& source = verdict.claim.source;
+        if (std::ranges::find(sources, source) == sources.end()) sources.push_back(source);
+        if (const auto mine = of_claim.extract(verdict.claim.id))
+            ++of_source[source][mine.mapped()];
+    }
+    const auto row = [&](const std::string& name, const auto& count_of) {
+        int all = 0;
+        std::string cells;
+        for (const char* word : words) {
+            all += count_of(word);
+            cells += fmt::format("<td>{}</td>", count_of(word));
+        }
+        const int open = count_of("");
+        return fmt::format("<tr><td>{}</td><td>{}</td>{}</tr>\n", name, all + open, cells);
+    };
+    std::string rows;
+    for (const std::string& source : sources)
+        rows += row(source_links({source}),
+                    [&](const std::string& word) { return of_source[source][word]; });
+    rows += row("<b>all</b>", [&](const std::string& word) {
+        int sum = 0;
+        for (const std::string& source : sources) sum += of_source[source][word];
+        return sum;
+    });
+    std::string head;
+    for (const char* word : words) head += fmt::format("<th>{}</th>", badge(word));
+    return raw("<table class=\"doxtable\">\n<tr><th>source</th><th>claims</th>" + head + "</tr>\n" +
+               rows + "</table>\n");
+}
+
+std::string claims_table(const std::vector<ClaimVerdict>& verdicts, const std::string& which) {
+    if (which == "tally") return tally_of_claims(verdicts);
+    if (which != "confirmed" && which != "refuted" && which != "depends")
+        throw input_error(fmt::format("\\claims{{{}}}: expected tally or a verdict", which));
+    std::string rows;
+    for (const ClaimVerdict& verdict : verdicts) {
+        if (verdict.verdict != which) continue;
+        const Claim& claim = verdict.claim;
+        const std::string anchor = claim.chapters.front() == verdict.chapter
+                                       ? claim.id
+                                       : fmt::format("{}_{}", claim.id, verdict.chapter);
+        rows += fmt::format(
+            "<tr><td><a href=\"ledger.html#claim_{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td>"
+            "</tr>\n",
+            anchor, claim.id, source_links({claim.source}), typeset(xml_escaped(claim.text)),
+            verdict.chapter);
+    }
+    return raw(
+        "<div class=\"scroll\"><table class=\"doxtable\">\n"
+        "<tr><th>claim</th><th>source</th><th>says</th><th>chapter</th></tr>\n" +
+        rows + "</table></div>\n");
+}
+
+/// The texts that people write, docs/*.dox and the chapters', with their measured numbers, with the
+/// table of files that the chapter's README.md holds for \\files, and with lists of claims for
+/// \\claims{confirmed} and the like.
 void write_texts(const Places& places) {
     Measured measured(places.root, places.runs);
-    static const std::regex files(R"([\\@]files\b)");
+    const std::vector<ClaimVerdict> verdicts = read_verdicts(places.root, places.runs);
+    static const std::regex files(R"([\\@]files\b)"), claims(R"([\\@]claims\{(\w+)\})");
     const auto write_all = [&](const fs::path& folder) {
         for (const auto& entry : fs::directory_iterator(places.root / folder)) {
             if (entry.path().extension() != ".dox") continue;
@@ -435,6 +504,8 @@ void write_texts(const Places& places) {
             if (std::regex_search(text, files))
                 text = std::regex_replace(text, files,
                                           files_table(places.root / folder / "README.md"));
+            for (std::smatch at; std::regex_search(text, at, claims);)
+                text = at.prefix().str() + claims_table(verdicts, at[1]) + at.suffix().str();
             write_file(places.pages / "texts" / name, text);
         }
     };

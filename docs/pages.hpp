@@ -35,6 +35,12 @@ std::vector<std::filesystem::path> text_files(const std::filesystem::path& root,
 /// wrong with that, or nothing. A figure that is shown again counts where it is shown first.
 std::string figure_order_fault(int chapter, const std::string& text);
 
+/// A list for a page, from the ledger: of the claims with the verdict `which`, each linked to its
+/// card; or, for "tally", of how many claims of each source have which verdict (of a claim with two
+/// answers the later one counts, as in the ledger's head). @throws Error (bad_input) for another
+/// word
+std::string claims_table(const std::vector<ClaimVerdict>& verdicts, const std::string& which);
+
 /// The table "| Read | for |" of a chapter's README.md for the chapter's page: names in place of
 /// links, and without the row of the page itself. @throws Error (bad_input) where there is none, or
 /// no file that it links to

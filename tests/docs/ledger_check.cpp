@@ -1,10 +1,13 @@
 /// Looks at the answers that the program of each chapter wrote with --small, into a folder of the
-/// chapter's name in SMALL, and at the committed answers of the last full run. Prints a line per
-/// fault. Run   ledger_check ROOT SMALL
+/// chapter's name in SMALL, and at the committed answers of the last full run; and whether each
+/// claim belongs to a chapter that is here. Prints a line per fault. Run   ledger_check ROOT SMALL
 #include "common/program/error.hpp"
 #include "docs/ledger.hpp"
 
 #include <fmt/format.h>
+
+#include <set>
+#include <string>
 
 namespace {
 
@@ -34,7 +37,16 @@ int check(int argc, char** argv) {
         look(chapter.number, "full",
              root / fmt::format("figures/measured/ch{:02}_results.json", chapter.number));
     }
-    fmt::print("{} chapters here, {} faults\n", chapters, wrong);
+    std::set<std::string> answered;
+    for (const docs::ClaimVerdict& verdict : docs::read_verdicts(root, root / "none"))
+        if (!verdict.verdict.empty()) answered.insert(verdict.claim.id);
+    for (const docs::Claim& claim : claims)
+        if (!answered.contains(claim.id)) {
+            fmt::print("claim {} is answered by no chapter: {}\n", claim.id, claim.text);
+            ++wrong;
+        }
+    fmt::print("{} chapters here, {} of {} claims answered, {} faults\n", chapters, answered.size(),
+               claims.size(), wrong);
     return static_cast<int>(wrong == 0 ? ExitCode::ok : ExitCode::wrong_answer);
 }
 

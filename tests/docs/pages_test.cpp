@@ -216,3 +216,30 @@ TEST_CASE("figures are numbered in the order in which the text shows them") {
         CHECK(figure_order_fault(chapter.number, text) == "");
     }
 }
+
+TEST_CASE("a page's list of claims is the ledger's, by verdict or counted by source") {
+    const auto claim = [](const char* id, const char* source, std::vector<int> chapters) {
+        return Claim{.id = id,
+                     .source = source,
+                     .note = "",
+                     .text = std::string("says ") + id,
+                     .chapters = std::move(chapters),
+                     .how = ""};
+    };
+    const Claim h1 = claim("H1", "Heinonen16", {1}), p6 = claim("P6", "BvhThesis13", {4, 7}),
+                h2 = claim("H2", "Heinonen16", {7});
+    const std::vector<ClaimVerdict> verdicts{
+        {h1, 1, "confirmed"}, {p6, 4, "depends"}, {p6, 7, "confirmed"}, {h2, 7, ""}};
+    const std::string right = claims_table(verdicts, "confirmed");
+    CHECK(right.find("ledger.html#claim_H1\">H1</a>") != std::string::npos);
+    CHECK(right.find("ledger.html#claim_P6_7\">P6</a>") != std::string::npos);
+    CHECK(right.find("says H2") == std::string::npos);
+    CHECK(claims_table(verdicts, "depends").find("ledger.html#claim_P6\">") != std::string::npos);
+    const std::string tally = claims_table(verdicts, "tally");
+    CHECK(tally.find("Heinonen16</a></td><td>2</td><td>1</td><td>0</td><td>0</td>") !=
+          std::string::npos);
+    CHECK(tally.find("BvhThesis13</a></td><td>1</td><td>1</td><td>0</td><td>0</td>") !=
+          std::string::npos);
+    CHECK(tally.find("<b>all</b></td><td>3</td><td>2</td>") != std::string::npos);
+    CHECK_THROWS_AS(claims_table(verdicts, "right"), Error);
+}
