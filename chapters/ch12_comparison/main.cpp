@@ -4,6 +4,7 @@
 ///     ch12_comparison render --scene room --out room.png
 ///     ch12_comparison compare --out DIR      (the measuring alone, into a CSV file)
 #include "chapters/ch12_comparison/lab.hpp"
+#include "chapters/ch12_comparison/measured/accuracy_data.hpp"
 #include "chapters/ch12_comparison/measured/advice_fit.hpp"
 #include "chapters/ch12_comparison/measured/comparison.hpp"
 #include "chapters/ch12_comparison/measured/comparison_tables.hpp"
@@ -91,11 +92,15 @@ int run(int argc, char** argv) {
     Numbers numbers;
     if (!options.small) count_lab(numbers);
     quote_comparison(comparison, times, numbers);
+<<<<<<< HEAD
     if (times) {
         const JudgedAdvice& advice = measured_once<measure_advice>(options);
         quote_advice(advice, numbers);
         write_file(options.out / "ch12_advice.csv", advice.model_csv);
     }
+=======
+    if (times) quote_accuracy(measured_once<measure_accuracy>(options), numbers);
+>>>>>>> 10cbe24 (Charts of the comparison, and speed against accuracy over the whole book)
     numbers.write(options.out, provenance(std::string(this_chapter.name), options));
     if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);

@@ -1,5 +1,6 @@
 #include "chapters/ch12_comparison/measured/comparison.hpp"
 
+#include "chapters/ch12_comparison/measured/accuracy_data.hpp"
 #include "common/measure.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
@@ -150,6 +151,7 @@ int run_compare(std::span<const Structure> structures, int argc, char** argv) {
                        .defaults = {}});
     const std::filesystem::path csv = options.out / comparison_file;
     compare_into(csv, structures, compare_effort(options), options);
+    accuracy_into(options.out / accuracy_file, structures, options);
     fmt::print("{}\n", csv.string());
     return static_cast<int>(ExitCode::ok);
 }

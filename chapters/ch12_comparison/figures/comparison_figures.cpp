@@ -1,0 +1,41 @@
+#include "chapters/ch12_comparison/figures.hpp"
+#include "chapters/ch12_comparison/measured/accuracy_data.hpp"
+#include "chapters/ch12_comparison/measured/comparison.hpp"
+#include "chapters/ch12_comparison/measured/comparison_charts.hpp"
+#include "common/measure.hpp"
+
+namespace space::ch12 {
+
+Chart fig_12_02(const Options& options) {
+    return pareto_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_03(const Options& options) {
+    return regret_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_04(const Options& options) {
+    return ray_kinds_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_05(const Options& options) {
+    return growth_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_06(const Options& options) {
+    return memory_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_07(const Options& options) {
+    return break_even_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_08(const Options& options) {
+    return total_cost_chart(measured_once<measure_comparison>(options));
+}
+
+Chart fig_12_11(const Options& options) {
+    return accuracy_chart(measured_once<measure_accuracy>(options));
+}
+
+}  // namespace space::ch12
