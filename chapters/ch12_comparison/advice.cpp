@@ -148,12 +148,12 @@ std::string reason(const AdviceModel& model, const SceneFeatures& features,
     const double build = second.cost.build_ns / first.cost.build_ns;
     const double ray = second.cost.ns_per_ray / first.cost.ns_per_ray;
     const double rays = break_even_rays(first.cost, second.cost);
-    const auto times = [](double ratio, std::string_view more, std::string_view less) {
-        return ratio >= 1.0 ? fmt::format("{:.2f} times as {}", ratio, more)
-                            : fmt::format("{:.2f} times as {}", 1.0 / ratio, less);
+    const auto factor = [](double ratio) {
+        return ratio >= 1.0 ? fmt::format("{:.2f} times as long", ratio)
+                            : fmt::format("{:.2f} of the time", ratio);
     };
-    std::string text = fmt::format("{} takes {} to build and {} a ray", second.structure,
-                                   times(build, "long", "short"), times(ray, "long", "short"));
+    std::string text = fmt::format("{} takes {} to build, and its rays take {}", second.structure,
+                                   factor(build), factor(ray));
     if (std::isfinite(rays))
         text += fmt::format(": it pays {} {:.2g} rays.", ray < 1.0 ? "from" : "up to", rays);
     else
@@ -178,12 +178,13 @@ std::string reason(const AdviceModel& model, const SceneFeatures& features,
             most = j;
         }
     }
-    if (octaves > 0.0)
+    constexpr double worth_telling = 0.05;  // 4 %
+    if (octaves > worth_telling)
         text += fmt::format(
-            " What speaks most for {}: {} (usual here: {}); beside {} that makes "
-            "its {} {:.2f} times as short.",
+            " What speaks most for {}: {} (usually: {}), by which {} takes {:.2f} "
+            "times as long for its {}.",
             first.structure, seen(most, x[most]), seen(most, model.usual[most]), second.structure,
-            by_build ? "build" : "rays", std::exp2(octaves));
+            std::exp2(octaves), by_build ? "build" : "rays");
     return text;
 }
 

@@ -193,9 +193,14 @@ std::string fault_in_memory(const std::string& text) {
 struct AdviceTexts {
     bool advise = false, moving = false;
     std::string rays, memory;
+    std::vector<CLI::Option*> of_measuring;  ///< options that have no meaning beside it
 
     std::optional<AdviceRequest> request() const {
         if (!advise) return std::nullopt;
+        for (const CLI::Option* option : of_measuring)
+            if (option->count() > 0)
+                throw usage_error(
+                    fmt::format("--advise measures nothing: leave {} away", option->get_name()));
         if (rays.empty()) throw usage_error("--advise: for how many rays? add --rays-to-trace N");
         AdviceRequest request{.rays = *double_in(rays), .moving = moving};
         if (!memory.empty()) request.memory = 1e6 * *double_in(memory);
@@ -203,19 +208,17 @@ struct AdviceTexts {
     }
 };
 
-/// To be called last: --advise measures nothing, and excludes what is about measuring.
+/// To be called last.
 std::shared_ptr<AdviceTexts> add_advice_options(CLI::App& app) {
     const auto texts = std::make_shared<AdviceTexts>();
-    const std::vector<CLI::Option*> before = app.get_options();
-    auto* advise =
-        app.add_flag("--advise", texts->advise,
-                     "which structure does this mesh need? by a look at it, in a second");
-    for (CLI::Option* option : before) {
-        constexpr std::string_view allowed[] = {"--help",    "--mesh",          "--scene",
-                                                "--threads", "--build-threads", "--seed"};
-        if (std::ranges::find(allowed, option->get_name()) == std::end(allowed))
-            advise->excludes(option);
+    for (CLI::Option* option : app.get_options()) {
+        constexpr std::string_view others[] = {"--help",    "--mesh",          "--scene",
+                                               "--threads", "--build-threads", "--seed"};
+        if (std::ranges::find(others, option->get_name()) == std::end(others))
+            texts->of_measuring.push_back(option);
     }
+    auto* advise = app.add_flag("--advise", texts->advise,
+                                "which structure does this mesh need? by a look, in a second");
     app.add_option("--rays-to-trace", texts->rays,
                    "that the structure is built for; with --moving, in each frame")
         ->type_name("N")

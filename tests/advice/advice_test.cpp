@@ -161,9 +161,9 @@ TEST_CASE("the reason names the term and the feature that decided") {
     const SceneFeatures overlapping{.count = 10.0, .overlap = 5.0};
     const auto candidates = advise(model, overlapping, {.rays = 1e6});
     CHECK(reason(model, overlapping, candidates) ==
-          "quick takes 16.00 times as short to build and 128.00 times as long a ray: it pays up to "
-          "30 rays. What speaks most for careful: a random line meets 31 boxes (usual here: a "
-          "random line meets 3 boxes); beside quick that makes its rays 8.00 times as short.");
+          "quick takes 0.06 of the time to build, and its rays take 128.00 times as long: it pays "
+          "up to 30 rays. What speaks most for careful: a random line meets 31 boxes (usually: a "
+          "random line meets 3 boxes), by which quick takes 8.00 times as long for its rays.");
     CHECK(reason(model, thousand, std::span(candidates).first(1)) ==
           "No other structure fits in the memory.");
 }
