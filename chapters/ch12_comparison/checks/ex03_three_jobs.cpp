@@ -60,8 +60,8 @@ void check(Job job) {
     CAPTURE(work.scene, name);
     REQUIRE_FALSE(block.empty());
     const ComparedRow* chosen = find(block, name);
-    INFO("the lab has no such structure, or it gave up on this scene, or is not of this book");
-    REQUIRE((chosen && !chosen->is_peer));
+    const bool is_of_this_book_and_stands = chosen && !chosen->is_peer;
+    REQUIRE(is_of_this_book_and_stands);
     INFO("bytes in all: " << chosen->bytes << ", triangles: " << chosen->triangles);
     REQUIRE(fits(*chosen, work));
     double best = cost_ms(*chosen, work);
