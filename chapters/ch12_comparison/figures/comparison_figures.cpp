@@ -1,5 +1,7 @@
 #include "chapters/ch12_comparison/figures.hpp"
 #include "chapters/ch12_comparison/measured/accuracy_data.hpp"
+#include "chapters/ch12_comparison/measured/advice_charts.hpp"
+#include "chapters/ch12_comparison/measured/advice_fit.hpp"
 #include "chapters/ch12_comparison/measured/comparison.hpp"
 #include "chapters/ch12_comparison/measured/comparison_charts.hpp"
 #include "common/measure.hpp"
@@ -34,8 +36,20 @@ Chart fig_12_08(const Options& options) {
     return total_cost_chart(measured_once<measure_comparison>(options));
 }
 
+Chart fig_12_09(const Options& options) {
+    return advice_chart(measured_once<measure_advice>(options));
+}
+
+Chart fig_12_10(const Options& options) {
+    return advice_misses_chart(measured_once<measure_advice>(options));
+}
+
 Chart fig_12_11(const Options& options) {
     return accuracy_chart(measured_once<measure_accuracy>(options));
+}
+
+Chart fig_12_13(const Options& options) {
+    return decision_chart(measured_once<measure_comparison>(options));
 }
 
 }  // namespace space::ch12

@@ -22,5 +22,7 @@ Chart memory_chart(const Comparison& comparison);
 Chart break_even_chart(const Comparison& comparison);
 /// What some structures cost in all, over the number of rays, in one scene.
 Chart total_cost_chart(const Comparison& comparison);
+/// Questions and answers on the way to a structure, with the numbers of rays as they were measured.
+Chart decision_chart(const Comparison& comparison);
 
 }  // namespace space::ch12
