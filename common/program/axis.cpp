@@ -29,14 +29,16 @@ Axis log_axis(double least, double most, std::size_t most_ticks) {
     Axis axis{.logarithmic = true, .low = least / pad, .high = most * pad};
     for (const std::vector<double>& steps :
          {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {
-        axis.ticks.clear();
+        std::vector<Tick> ticks;
         for (int e = static_cast<int>(std::floor(std::log10(axis.low)));
              e <= std::ceil(std::log10(axis.high)); ++e)
             for (const double step : steps) {
                 const double value = step * std::pow(10.0, e);
                 if (value >= axis.low && value <= axis.high)
-                    axis.ticks.push_back({value, tick_text(value, axis.high)});
+                    ticks.push_back({value, tick_text(value, axis.high)});
             }
+        if (ticks.size() > most_ticks && axis.ticks.size() >= 2) break;  // the coarser ones do
+        axis.ticks = std::move(ticks);
         if (axis.ticks.size() >= 3) break;
     }
     if (axis.ticks.size() > most_ticks)  // their names would run into each other

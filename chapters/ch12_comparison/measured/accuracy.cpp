@@ -22,15 +22,19 @@ namespace space::ch12 {
 namespace {
 
 constexpr std::array<std::string_view, 3> accuracy_scenes{"icosphere:10", "boxes:160", "soup:2000"};
-constexpr std::size_t accuracy_ray_count = 10'000;
+/// Of each scene.
+std::size_t accuracy_ray_count(const Options& options) {
+    return options.small ? 500 : 10'000;
+}
 constexpr int accuracy_turns = 3;
 
 /// From all around at edges and vertices, as near as floats come; every other pair lies in a plane
 /// across an axis, or within a float's last place of it: boxes of triangles and of nodes have faces
 /// there.
-std::vector<Ray> rays_where_tests_fail(const std::vector<Triangle>& triangles, std::uint64_t seed) {
-    std::vector<Ray> rays = rays_from_around(triangles, accuracy_ray_count, seed);
-    Pcg32 random(seed);
+std::vector<Ray> rays_where_tests_fail(const std::vector<Triangle>& triangles,
+                                       const Options& options) {
+    std::vector<Ray> rays = rays_from_around(triangles, accuracy_ray_count(options), options.seed);
+    Pcg32 random(options.seed);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Triangle& triangle =
             triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];
@@ -56,10 +60,10 @@ struct AccuracyScene {
     AccuracyScene(std::string_view spec, const Structure& naive, const Options& options)
         : name(spec),
           triangles(make_scene(spec, options.seed).mesh.triangles()),
-          rays(rays_where_tests_fail(triangles, options.seed)),
+          rays(rays_where_tests_fail(triangles, options)),
           right(rays.size()) {
         const BuiltStructure exact = naive.variants.front().build_from_triangles(triangles, {});
-        exact.trace({.rays = rays, .hits = right, .threads = options.threads});
+        exact.trace({.rays = rays, .hits = right, .threads = std::max(1u, options.threads)});
     }
 };
 
@@ -100,7 +104,7 @@ std::string accuracy_head(std::span<const Structure> structures, const Options& 
     return fmt::format(
         "# Chapter 12: wrong answers of {} aimed rays a scene. Times are of one thread\n"
         "# machine: {}\n# sources:{}\n# structures: {}, seed {}\n",
-        accuracy_ray_count, run.machine, sources, structures.size(), options.seed);
+        accuracy_ray_count(options), run.machine, sources, structures.size(), options.seed);
 }
 
 constexpr std::string_view accuracy_columns =

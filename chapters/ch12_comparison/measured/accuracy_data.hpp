@@ -34,8 +34,8 @@ struct AccuracyRow {
 std::vector<AccuracyRow> measure_accuracy_of(std::span<const Structure> structures,
                                              const Options& options);
 
-/// Writes what it measures, unless the file is there already and of the same machine and
-/// structures.
+/// Writes what it measures, unless the file is there already, of the same machine, sources and
+/// settings.
 void accuracy_into(const std::filesystem::path& csv, std::span<const Structure> structures,
                    const Options& options);
 /// @throws Error (bad_input)
