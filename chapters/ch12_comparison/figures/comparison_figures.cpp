@@ -1,9 +1,10 @@
 #include "chapters/ch12_comparison/figures.hpp"
+#include "chapters/ch12_comparison/figures/accuracy_chart.hpp"
+#include "chapters/ch12_comparison/figures/advice_charts.hpp"
+#include "chapters/ch12_comparison/figures/comparison_charts.hpp"
 #include "chapters/ch12_comparison/measured/accuracy_data.hpp"
-#include "chapters/ch12_comparison/measured/advice_charts.hpp"
 #include "chapters/ch12_comparison/measured/advice_fit.hpp"
 #include "chapters/ch12_comparison/measured/comparison.hpp"
-#include "chapters/ch12_comparison/measured/comparison_charts.hpp"
 #include "common/measure.hpp"
 
 namespace space::ch12 {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "chapters/ch12_comparison/structures.hpp"
-#include "common/program/chart.hpp"
 #include "common/program/numbers.hpp"
 #include "common/program/options.hpp"
 
@@ -53,8 +52,8 @@ struct AccuracyPoint {
 };
 std::vector<AccuracyPoint> accuracy_points(std::span<const AccuracyRow> rows);
 
-/// Wrong answers per million rays against the time of one.
-Chart accuracy_chart(std::span<const AccuracyRow> rows);
+/// Those that a table shows: one of each kind, and the peers.
+bool stands_for_its_kind(const AccuracyPoint& point);
 
 /// The table `accuracy`, and the numbers accuracy_points, accuracy_exact_points, accuracy_rays,
 /// accuracy_scenes, accuracy_most.

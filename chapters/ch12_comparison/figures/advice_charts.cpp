@@ -1,6 +1,6 @@
-#include "chapters/ch12_comparison/measured/advice_charts.hpp"
+#include "chapters/ch12_comparison/figures/advice_charts.hpp"
 
-#include "chapters/ch12_comparison/measured/chart_parts.hpp"
+#include "chapters/ch12_comparison/figures/chart_parts.hpp"
 
 #include <fmt/format.h>
 

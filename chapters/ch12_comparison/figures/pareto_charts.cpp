@@ -1,5 +1,5 @@
-#include "chapters/ch12_comparison/measured/chart_parts.hpp"
-#include "chapters/ch12_comparison/measured/comparison_charts.hpp"
+#include "chapters/ch12_comparison/figures/chart_parts.hpp"
+#include "chapters/ch12_comparison/figures/comparison_charts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "chapters/ch12_comparison/measured/chart_parts.hpp"
+#include "chapters/ch12_comparison/figures/chart_parts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
+#include "chapters/ch12_comparison/figures/chart_parts.hpp"
+#include "chapters/ch12_comparison/figures/comparison_charts.hpp"
 #include "chapters/ch12_comparison/measured/break_even.hpp"
-#include "chapters/ch12_comparison/measured/chart_parts.hpp"
-#include "chapters/ch12_comparison/measured/comparison_charts.hpp"
 #include "common/measure.hpp"
 
 #include <fmt/format.h>
@@ -98,21 +98,25 @@ Chart decision_chart(const Comparison& comparison) {
         chart.series.push_back({.name = range.structure, .x = {range.from}, .y = {1.0}});
     double height = 8;
     for (const Decision& decision : all)
-        height += 38 + std::max(decision_height, 14 + answer_line * double(decision.answers.size()));
+        height +=
+            38 + std::max(decision_height, 14 + answer_line * double(decision.answers.size()));
     Svg& svg = chart.drawing.emplace(chart.title, 640, height + decision_height + 8);
     double y = 8;
     for (const Decision& decision : all) {
         const double high =
             std::max(decision_height, 14 + answer_line * double(decision.answers.size()));
         const double middle = y + 0.5 * high;
-        svg.rect(at(decision_left, middle - 0.5 * decision_height), {decision_width, decision_height},
+        svg.rect(at(decision_left, middle - 0.5 * decision_height),
+                 {decision_width, decision_height},
                  {.stroke = Ink::blue, .fill = Ink::blue, .opacity = 0.12});
         svg.text(at(decision_left + 0.5 * decision_width, middle - 4), decision.question,
                  {.size = 19, .bold = true});
         svg.text(at(decision_left + 0.5 * decision_width, middle + 20), decision.hint,
                  {.ink = Ink::quiet, .size = 16});
-        svg.line(at(decision_left + decision_width, middle), at(answer_left - 3, middle), {.arrow = true});
-        svg.text(at(0.5 * (decision_left + decision_width + answer_left), middle - 8), "yes", {.size = 16});
+        svg.line(at(decision_left + decision_width, middle), at(answer_left - 3, middle),
+                 {.arrow = true});
+        svg.text(at(0.5 * (decision_left + decision_width + answer_left), middle - 8), "yes",
+                 {.size = 16});
         svg.rect(at(answer_left, y), Vector2(glm::dvec2(answer_width, high)),
                  {.stroke = Ink::green, .fill = Ink::green, .opacity = 0.12});
         const double first = middle - 0.5 * answer_line * double(decision.answers.size()) + 18;
