@@ -92,15 +92,12 @@ int run(int argc, char** argv) {
     Numbers numbers;
     if (!options.small) count_lab(numbers);
     quote_comparison(comparison, times, numbers);
-<<<<<<< HEAD
     if (times) {
         const JudgedAdvice& advice = measured_once<measure_advice>(options);
         quote_advice(advice, numbers);
         write_file(options.out / "ch12_advice.csv", advice.model_csv);
+        quote_accuracy(measured_once<measure_accuracy>(options), numbers);
     }
-=======
-    if (times) quote_accuracy(measured_once<measure_accuracy>(options), numbers);
->>>>>>> 10cbe24 (Charts of the comparison, and speed against accuracy over the whole book)
     numbers.write(options.out, provenance(std::string(this_chapter.name), options));
     if (options.counts) return exit_code(wrong);
     fmt::print("\n{} wrong answers.\n", wrong);
