@@ -13,7 +13,7 @@
 namespace space {
 namespace {
 
-void check_suite(std::string_view name, const LinearOrthtreeConfig& cells) {
+void check_cells(std::string_view name, const LinearOrthtreeConfig& cells) {
     check_accelerator<LinearOctree<>>(
         name, [=](std::span<const Triangle> t) { return LinearOctree<>::build(t, {cells}); },
         SuiteOptions{}.fewer());
@@ -37,9 +37,9 @@ TEST_CASE("the suite: linear octree") {
 }
 
 TEST_CASE("the suite: linear octrees with chains, shallow ones, and with one triangle a leaf") {
-    check_suite("linear octree with chains", {.leaf_size = 4});
-    check_suite("linear octree, depth 2", {.leaf_size = 4, .max_depth = 2});
-    check_suite("linear octree, leaves of one", {.leaf_size = 1, .skip_chains = true});
+    check_cells("linear octree with chains", {.leaf_size = 4});
+    check_cells("linear octree, depth 2", {.leaf_size = 4, .max_depth = 2});
+    check_cells("linear octree, leaves of one", {.leaf_size = 1, .skip_chains = true});
 }
 
 TEST_CASE("each triangle is in one leaf, and each box around all that is below it, and no larger") {

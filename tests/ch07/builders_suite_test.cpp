@@ -17,7 +17,7 @@ template <TriangleTest Test>
 using SpatialSplitBvh = Bvh<SpatialSplitBuilder, Test>;
 
 template <class Builder>
-void check_suite(std::string_view name, const typename Builder::Config& config = {}) {
+void check_structure(std::string_view name, const typename Builder::Config& config = {}) {
     using A = Bvh<Builder>;
     check_accelerator<A>(
         name, [=](std::span<const Triangle> t) { return A::build(t, config); },
@@ -31,18 +31,18 @@ TEST_CASE("the suite: spatial splits") {
 }
 
 TEST_CASE("the suite: spatial splits wherever they may be") {
-    check_suite<SpatialSplitBuilder>(
+    check_structure<SpatialSplitBuilder>(
         "bvh-spatial, many",
         {.costs = {0.0, 1.0}, .max_leaf_size = 1, .min_overlap = 0.0, .max_growth = 4.0});
-    check_suite<SpatialSplitBuilder>("bvh-spatial, all of them split",
-                                     {.max_growth = 2.0, .unsplits = false});
+    check_structure<SpatialSplitBuilder>("bvh-spatial, all of them split",
+                                         {.max_growth = 2.0, .unsplits = false});
 }
 
 TEST_CASE("the suite: morton, bottom-up, optimised, over BSP leaves") {
-    check_suite<MortonBuilder>("bvh-morton");
-    check_suite<BottomUpBuilder>("bvh-bottom-up");
-    check_suite<OptimisedBuilder>("bvh-optimised", {.max_leaf_size = 2, .min_gain = 0.0});
-    check_suite<OverBspBuilder>("bvh-over-bsp");
+    check_structure<MortonBuilder>("bvh-morton");
+    check_structure<BottomUpBuilder>("bvh-bottom-up");
+    check_structure<OptimisedBuilder>("bvh-optimised", {.max_leaf_size = 2, .min_gain = 0.0});
+    check_structure<OverBspBuilder>("bvh-over-bsp");
 }
 
 }  // namespace space

@@ -16,7 +16,7 @@
 namespace space {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Entries of a like size or of very different ones, now and then 0.
 Affine some_map(Pcg32& random) {
@@ -106,7 +106,7 @@ TEST_CASE("I3: a singular matrix has no inverse, nor has one that doubles cannot
     REQUIRE_FALSE(inverse(scaled({1, 1, 0})));
     REQUIRE_FALSE(inverse(scaled({0, 0, 0})));
     REQUIRE_FALSE(inverse(Affine{{{{1, 2, 3, 0}, {2, 4, 6, 0}, {0, 0, 1, 0}}}}));
-    REQUIRE_FALSE(inverse(scaled({1, nan, 1})));
+    REQUIRE_FALSE(inverse(scaled({1, not_a_number, 1})));
     REQUIRE_FALSE(inverse(scaled({1, infinity, 1})));
     Pcg32 random(8);
     for (int i = 0; i < 100; ++i) {  // the third row is a sum of the others, but for roundings

@@ -37,15 +37,15 @@ float plane_for(Pcg32& random, float o) {
     }
 }
 /// A plane across x, and a ray whose other components are like 1.
-struct Case {
+struct SlabCase {
     float p, o, d;
 };
-Case some_case(Pcg32& random) {
+SlabCase some_case(Pcg32& random) {
     const float o = random.below(8) == 0 ? 0.0f : of_any_size(random, -40, 29);
     const float d = of_any_size(random, -80, 29);
     return {plane_for(random, o), o, d};
 }
-KernelRay prepared(const Case& c) {
+KernelRay prepared(const SlabCase& c) {
     KernelRay ray{};
     if (!prepare_kernel_ray({.origin = {c.o, 0, 0}, .direction = {c.d, 1, 1}}, 0x1p30f, ray))
         FAIL("a ray that kernels should take");
@@ -53,11 +53,11 @@ KernelRay prepared(const Case& c) {
 }
 
 /// Whether t, computed, is at most the exact (p - o) / d, or at least.
-bool at_most_exact(float t, const Case& c) {
+bool at_most_exact(float t, const SlabCase& c) {
     const Quadruple left = Quadruple{t} * c.d, right = Quadruple{c.p} - c.o;
     return c.d > 0 ? left <= right : left >= right;
 }
-bool at_least_exact(float t, const Case& c) {
+bool at_least_exact(float t, const SlabCase& c) {
     const Quadruple left = Quadruple{t} * c.d, right = Quadruple{c.p} - c.o;
     return c.d > 0 ? left >= right : left <= right;
 }
@@ -76,7 +76,7 @@ float far_t(const KernelRay& ray, int axis, float p, bool is_fused) {
 TEST_CASE("a near plane is never met later than exactly, a far one never earlier, fused or not") {
     Pcg32 random(1);
     for (int i = 0; i < sized(400'000, 20'000); ++i) {
-        const Case c = some_case(random);
+        const SlabCase c = some_case(random);
         const KernelRay ray = prepared(c);
         const bool is_ahead = (Quadruple{c.p} - c.o) * c.d >= 0;
         const float near = near_t(ray, 0, c.p);
@@ -100,7 +100,7 @@ TEST_CASE(
     Pcg32 random(2);
     Quadruple near = 0, far = 0;
     for (int i = 0; i < sized(400'000, 20'000); ++i) {
-        const Case c = some_case(random);
+        const SlabCase c = some_case(random);
         const Quadruple exact = (Quadruple{c.p} - c.o) / c.d;
         if (!(exact > Quadruple(0x1p-60))) continue;
         const KernelRay ray = prepared(c);
