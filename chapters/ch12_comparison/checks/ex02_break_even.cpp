@@ -165,6 +165,9 @@ TEST_CASE("the largest times: nothing overflows, and one picosecond counts") {
     check({{most_ps, 7}, {most_ps - 1, 7}}, {{0, 1}});
     check({{0, 8}, {std::uint64_t{1} << 60, 7}, {(std::uint64_t{1} << 60) + 1, 6}},
           {{0, 0}, {(std::uint64_t{1} << 59) + 1, 2}});
+    constexpr std::uint64_t much = std::uint64_t{1} << 61;
+    check({{0, 2 * much + 1}, {much, 2 * much}}, {{0, 0}, {much + 1, 1}});
+    check({{much, 2 * much}, {0, 2 * much + 1}}, {{0, 1}, {much, 0}});
     Pcg32 random(124);
     for (int turn = 0; turn < 2'000; ++turn) {
         Structures structures(1 + random.below(8));
