@@ -8,8 +8,8 @@
 ///
 /// 1. `click`: a program loads a scanned mesh of about a million triangles, somebody clicks on one
 ///    point of its picture, the program tells which triangle that is, and ends. One ray.
-/// 2. `bake`: the light of a building of about a million triangles is computed once and for all,
-///    from 10^10 rays that leave its surfaces to all sides.
+/// 2. `bake`: the light of a building of about a hundred thousand triangles is computed once and
+///    for all, from 10^10 rays that leave its surfaces to all sides.
 /// 3. `pocket`: the same building and as many such rays, on a small device: no more than 32 bytes
 ///    for each of its triangles, for the structure and all that it needs.
 ///

@@ -16,7 +16,7 @@ inline std::string_view structure_for(Job job) {
         case Job::click:
             return "fast";
         case Job::bake:
-            return "fast-hq";
+            return "fast";
         case Job::pocket:
             break;
     }

@@ -15,7 +15,7 @@ inline std::string_view structure_for(Job job) {
         case Job::click:
             return "naive";  // no tree is built as soon as a million triangles are met once
         case Job::bake:
-            return "fast-hq";  // its build is nothing beside so many rays
+            return "fast";  // its build is nothing beside so many rays
         case Job::pocket:
             break;
     }
