@@ -268,10 +268,11 @@ TEST_CASE("what --advise cannot take is told in one line") {
         is_told(asked + "--rays-to-trace 5 --memory " + memory, "no number of megabytes");
     is_told(asked + "--rays-to-trace 5 --memory 1e-9", "the smallest structure");
     is_told("--advise --rays-to-trace 5", "--mesh");
+    is_told("--advise --rays-to-trace 5 --instances forest", "--instances");
     is_told("--scene boxes:36 --rays-to-trace 5", "--advise");
     is_told("--scene boxes:36 --moving", "--advise");
     is_told("--scene boxes:36 --memory 5", "--advise");
     for (const char* other : {"--json x", "--hits x", "--rays x", "--check", "--structure fast",
-                              "--diffuse 5", "--size 5x5", "--repeat 2", "--instances forest"})
+                              "--diffuse 5", "--size 5x5", "--repeat 2"})
         is_told(asked + "--rays-to-trace 5 " + other, "--advise");
 }
