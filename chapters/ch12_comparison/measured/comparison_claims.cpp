@@ -13,12 +13,10 @@
 namespace space::ch12 {
 
 std::vector<ClaimAnswer> answer_comparison(const Comparison& comparison) {
-    std::vector<Block> compared = blocks_near(comparison, compared_size(comparison));
-    if (compared.empty()) compared = blocks(comparison);
     std::size_t agree = 0;
     std::vector<double> even, uneven;
     std::vector<std::string> scenes, against;
-    for (const OctreeDuel& duel : octree_duels(compared)) {
+    for (const OctreeDuel& duel : octree_duels(comparison)) {
         (duel.is_even ? even : uneven).push_back(duel.ratio());
         if (duel.is_even) continue;
         scenes.push_back(duel.scene);

@@ -124,7 +124,7 @@ class Quoted {
     void pairs() {
         std::map<bool, std::vector<double>> by_evenness;
         std::uint64_t octree_wins = 0;
-        const auto duels = octree_duels(large_);
+        const auto duels = octree_duels(comparison_);
         for (const OctreeDuel& duel : duels) {
             by_evenness[duel.is_even].push_back(duel.ratio());
             octree_wins += duel.ratio() < 1.0;

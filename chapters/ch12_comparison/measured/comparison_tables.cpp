@@ -210,7 +210,7 @@ Table lazy_table(const Comparison& comparison) {
 
 Table octrees_table(const Comparison& comparison) {
     Table table({"scene", "even", "bvh-binned, ns", "best octree", "its ns", "ratio"});
-    for (const OctreeDuel& duel : octree_duels(of_the_large(comparison)))
+    for (const OctreeDuel& duel : octree_duels(comparison))
         table.row({duel.scene, duel.is_even ? "yes" : "no", number(duel.bvh_cost, 0), duel.octree,
                    number(duel.octree_cost, 0), number(duel.ratio(), 2)});
     return table;

@@ -32,15 +32,22 @@ double triangles_of(Block block) {
     return double(block.front().triangles);
 }
 
+double size_off(Block block, double triangles) {
+    return std::abs(std::log(triangles_of(block) / triangles));
+}
+
+/// Of each scene the block whose number of triangles is nearest, by ratio.
+std::vector<Block> nearest_blocks(const Comparison& comparison, double triangles) {
+    return one_of_each(comparison, [&](Block a, Block b) {
+        return size_off(a, triangles) < size_off(b, triangles);
+    });
+}
+
 }  // namespace
 
 std::vector<Block> blocks_near(const Comparison& comparison, double triangles) {
-    const auto off = [&](Block block) {
-        return std::abs(std::log(triangles_of(block) / triangles));
-    };
-    std::vector<Block> near =
-        one_of_each(comparison, [&](Block a, Block b) { return off(a) < off(b); });
-    std::erase_if(near, [&](Block block) { return off(block) > std::log(3.0); });
+    std::vector<Block> near = nearest_blocks(comparison, triangles);
+    std::erase_if(near, [&](Block block) { return size_off(block, triangles) > std::log(3.0); });
     return near;
 }
 
@@ -143,9 +150,9 @@ Growth growth(const Comparison& comparison, std::string_view structure) {
     return growth;
 }
 
-std::vector<OctreeDuel> octree_duels(std::span<const Block> blocks) {
+std::vector<OctreeDuel> octree_duels(const Comparison& comparison) {
     std::vector<OctreeDuel> duels;
-    for (const Block block : blocks) {
+    for (const Block block : nearest_blocks(comparison, compared_size(comparison))) {
         const ComparedRow* const bvh = find(block, "bvh-binned");
         const ComparedRow* best = nullptr;
         for (const char* name : {"octree", "octree-loose", "octree-linear"})

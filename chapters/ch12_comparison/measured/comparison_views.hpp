@@ -58,14 +58,15 @@ struct Growth {
 };
 Growth growth(const Comparison& comparison, std::string_view structure);
 
-/// The best octree of chapter 6 beside bvh-binned on one scene: the ratio of what rays cost.
+/// The best octree of chapter 6 beside bvh-binned on one scene, in the size that is nearest to the
+/// compared one, however far: the ratio of what rays cost.
 struct OctreeDuel {
     std::string scene, octree;
     bool is_even;
     double bvh_cost, octree_cost;
     double ratio() const { return octree_cost / bvh_cost; }
 };
-std::vector<OctreeDuel> octree_duels(std::span<const Block> blocks);
+std::vector<OctreeDuel> octree_duels(const Comparison& comparison);
 
 /// The numbers of rays for which the structure is the cheapest of the book's, build and rays
 /// together; none where another always is. Of several ranges, from the first to the last.
