@@ -4,8 +4,11 @@
 #include "tests/catch.hpp"
 #include "tests/common/temporary.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -112,6 +115,31 @@ TEST_CASE(
         line = error_of(ExitCode::bad_output, [&] { write_file(file, large); });
     }
     CHECK(read_file(file) == "old");
+    CHECK(entries(directory.path()) == 1);
+}
+
+TEST_CASE(
+    "a program that is killed in the middle of writing leaves the old file, and no part of the "
+    "new") {
+    const TemporaryDirectory directory;
+    const auto file = directory.path() / "file";
+    write_file(file, "old");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const rlimit no_core{}, small{1 << 12, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_CORE, &no_core);
+        ::setrlimit(RLIMIT_FSIZE, &small);  // whose signal ends the program
+        std::signal(SIGXFSZ, SIG_DFL);
+        write_file(file, std::string(1 << 16, 'x'));
+        ::_exit(0);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFSIGNALED(status));
+    CHECK(read_file(file) == "old");
+    const int nameless = ::open(directory.path().c_str(), O_WRONLY | O_TMPFILE, 0600);
+    if (nameless < 0) return;  // this file system has no files without names
+    ::close(nameless);
     CHECK(entries(directory.path()) == 1);
 }
 
