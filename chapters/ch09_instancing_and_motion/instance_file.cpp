@@ -47,6 +47,14 @@ struct Tape {
 /// the file: nothing is nested deeper.
 constexpr std::size_t deepest = 7;
 
+/// A name in a file may hold any character, a line's end among them: '?' for what is none to be
+/// seen.
+std::string printable(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+    return text;
+}
+
 /// Parses, and calls value(place, end) where a value begins or, if it is a number or a text, has
 /// been read, named(place, depth, again, end) for each name, which its object may have had before,
 /// and too_deep(end) where a list or an object is nested so deep that nothing in it has a meaning.
@@ -132,7 +140,7 @@ class Reader {
         try {
             return {SceneGraph(std::move(objects_), root), std::move(remarks_)};
         } catch (const GraphError& error) {
-            throw input_error(fmt::format("{}: {}", file_.string(), error.what()));
+            throw input_error(fmt::format("{}: {}", file_.string(), printable(error.what())));
         }
     }
 
@@ -147,7 +155,7 @@ class Reader {
   private:
     [[noreturn]] void fail_at(const char* where, const std::string& fault) const {
         throw input_error(fmt::format("{}:{}: {}", file_.string(),
-                                      1 + std::count(text_.data(), where, '\n'), fault));
+                                      1 + std::count(text_.data(), where, '\n'), printable(fault)));
     }
     /// Finds the line by parsing once more. The parser reads one letter beyond a number.
     [[noreturn]] void fail(const Place& place, const std::string& fault) const {

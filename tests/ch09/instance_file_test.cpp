@@ -127,6 +127,8 @@ TEST_CASE("each fault of a file is told in one line that names the file, the lin
         {"1e3", "Infinity", "9: syntax error while parsing"},
         {"1e3", "0", R"(7: group "pair", instance 2: the matrix is singular, or too near to it)"},
         {R"({"object": "tree"})", R"({"object": "tre"})", R"(12: there is no mesh or group "tre")"},
+        {R"({"object": "tree"})", R"({"object": "tr\n\u001bee"})",
+         R"(12: there is no mesh or group "tr??ee")"},
         {R"({"object": "tree"})", R"({"object": 7})",
          "12: the name of a mesh or a group is needed, in quotes"},
         {R"({"object": "tree"})", R"({"matrix": []})",
