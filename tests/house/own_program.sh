@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # own_program.sh ROOT COMPILER: proves that
 # - docs/own_program, copied out of the book, builds in both ways that its CMakeLists.txt knows and prints what it should,
-#   and that nothing but the structures comes with them: no test, no program, no warning;
+#   and that the floating-point options come with it, and nothing but the structures: no test, no program, no warning;
 # - for each header of the page's table needed_files.sh copies all that is included, and names the libraries that the table
 #   names; the table has every chapter's structures, and the target every .cpp file that they need;
 # - such a copy, of a structure with .cpp files, compiles and runs.
@@ -20,11 +20,13 @@ for way in one other; do
     launcher=$(command -v ccache || true)
     cmake -G Ninja -S "$folder/$way" -B "$folder/$way/build" -D SPLITTING_SPACE="$root" -D BY_FETCH_CONTENT=$fetch \
         -D CMAKE_CXX_COMPILER="$compiler" ${launcher:+-D CMAKE_CXX_COMPILER_LAUNCHER="$launcher"} \
-        -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG='-Wall -Wextra -Werror' >"$folder/log" 2>&1 ||
+        -D CMAKE_EXPORT_COMPILE_COMMANDS=ON -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG='-Wall -Wextra -Werror' >"$folder/log" 2>&1 ||
         { cat "$folder/log" && fault "configuring failed"; }
     ! grep -i warning "$folder/log" || fault "configuring warns"
     cmake --build "$folder/$way/build" >"$folder/log" 2>&1 || { cat "$folder/log" && fault "building failed"; }
     ! grep 'warning:' "$folder/log" || fault "compiling warns"
+    grep -- 'own_program.cpp' "$folder/$way/build/compile_commands.json" | grep -- '-fno-fast-math -ffp-contract=off' >/dev/null ||
+        fault 'options that answers depend on do not travel with the target'
     "$folder/$way/build/own_program" >"$folder/printed"
     diff "$folder/printed" "$root/tests/house/own_program.txt" || fault "it printed (<) what it should not (>)"
     programs=$(find "$folder/$way/build" -type f -executable -not -path '*/CMakeFiles/*' -printf '%f ')
