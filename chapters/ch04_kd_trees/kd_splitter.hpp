@@ -284,10 +284,10 @@ class KdSplitter {
             merge_into(children.above.events[axis], above);
         }
     }
-    static void merge_into(std::vector<SplitEvent>& parts, const std::vector<SplitEvent>& wholes) {
+    static void merge_into(std::vector<SplitEvent>& parts, const std::vector<SplitEvent>& whole) {
         std::sort(parts.begin(), parts.end());
-        std::vector<SplitEvent> all(parts.size() + wholes.size());
-        std::merge(parts.begin(), parts.end(), wholes.begin(), wholes.end(), all.begin());
+        std::vector<SplitEvent> all(parts.size() + whole.size());
+        std::merge(parts.begin(), parts.end(), whole.begin(), whole.end(), all.begin());
         parts = std::move(all);
     }
     // [hand_down]
