@@ -120,7 +120,7 @@ Chart advice_misses_chart(const JudgedAdvice& judged) {
                 .y_label = "times the best",
                 .log_x = true,
                 .series = {}};
-    constexpr double left = 150, top = 48, row = 26;
+    constexpr double left = 178, top = 48, row = 26;
     Svg& svg = chart.drawing.emplace(chart.title, 640, top + row * double(specs.size()) + 6);
     const double width = (634 - left) / std::max(1.0, double(rays.size()));
     svg.text(at(left - 10, top - 8), "rays:", {.anchor = Anchor::end, .size = 16});

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,7 +45,7 @@ constexpr std::array<Look, 14> looks{{{Ink::blue, 0.45},
                                       {Ink::orange, 0.55},
                                       {Ink::green, 0.45},
                                       {Ink::vermillion, 0.5},
-                                      {Ink::sky, 0.35},
+                                      {Ink::sky, 0.45},
                                       {Ink::yellow, 0.5},
                                       {Ink::purple, 0.45},
                                       {Ink::quiet, 0.35},
@@ -60,11 +63,36 @@ double strip_x(double rays) {
     return strip_left + (strip_right - strip_left) * std::log10(rays) / 10.0;
 }
 
+constexpr std::array<KeyEntry, 7> total_structures{{
+    {"naive", {Shape::star, Ink::ink, false, 6}},
+    {"kd-lazy", {Shape::square, Ink::green, true, 5}},
+    {"octree-linear", {Shape::diamond, Ink::orange, false, 6}},
+    {"bvh-parallel-morton", {Shape::circle, Ink::sky, true, 5}},
+    {"bvh-binned", {Shape::circle, Ink::blue, false, 5}},
+    {"fast", {Shape::triangle, Ink::vermillion, false, 5}},
+    {"fast-hq", {Shape::triangle, Ink::purple, true, 5}},
+}};
+
+/// A structure's cost at four numbers of rays a decade, in ms.
+Series total_cost_series(std::span<const CostLine> lines, std::string_view name) {
+    std::vector<CostLine> own;
+    std::ranges::copy_if(lines, std::back_inserter(own),
+                         [&](const CostLine& line) { return line.name == name; });
+    Series series{.name = std::string(name), .x = {}, .y = {}};
+    for (int step = 0; step <= 36 && !own.empty(); ++step) {
+        const double rays = std::pow(10.0, 0.25 * step);
+        series.x.push_back(rays);
+        series.y.push_back(own[cheapest(own, rays)].cost(rays) / 1e6);
+    }
+    return series;
+}
+
 /// Structures with a part in some strip, in the order in which they take turns there.
 std::vector<std::string> named_in(const std::vector<std::vector<StripPart>>& strips) {
     std::map<std::string, std::pair<double, int>> middles;
     for (const auto& parts : strips)
         for (const StripPart& part : parts) {
+            if (part.to < 1.2 * part.from) continue;  // nothing that could be seen
             middles[part.structure].first += std::log10(part.from * part.to);
             ++middles[part.structure].second;
         }
@@ -124,6 +152,11 @@ Chart break_even_chart(const Comparison& comparison) {
         for (const StripPart& part : strips[s]) {
             const auto index =
                 std::size_t(std::ranges::find(names, part.structure) - names.begin());
+            chart.series.push_back({.name = part.structure,
+                                    .x = {part.from},
+                                    .y = {part.to},
+                                    .labels = {shown[s].front().spec}});
+            if (index == names.size()) continue;
             const double from = strip_x(part.from), to = strip_x(part.to);
             const Look& look = looks[index % looks.size()];
             svg.rect(at(from, y), Vector2(glm::dvec2(to - from, strip_height)),
@@ -136,10 +169,6 @@ Chart break_even_chart(const Comparison& comparison) {
                 svg.text(at(0.5 * (from + to), y + 18), part.structure, {.size = 16});
             else if (text_width(number, 16) + 3 < to - from)
                 svg.text(at(0.5 * (from + to), y + 18), number, {.size = 16});
-            chart.series.push_back({.name = part.structure,
-                                    .x = {part.from},
-                                    .y = {part.to},
-                                    .labels = {shown[s].front().spec}});
         }
     }
     return chart;
@@ -157,20 +186,30 @@ Chart total_cost_chart(const Comparison& comparison) {
                 .log_y = true,
                 .series = {}};
     const std::vector<CostLine> lines = cost_lines(block, false);
-    for (const std::string_view name :
-         {"naive", "kd-sah", "kd-lazy", "bvh-binned", "bvh-parallel-morton", "fast", "fast-hq"}) {
-        std::vector<CostLine> own;
-        std::ranges::copy_if(lines, std::back_inserter(own),
-                             [&](const CostLine& line) { return line.name == name; });
-        if (own.empty()) continue;
-        Series series{.name = std::string(name), .x = {}, .y = {}};
-        for (int step = 0; step <= 36; ++step) {
-            const double rays = std::pow(10.0, 0.25 * step);
-            series.x.push_back(rays);
-            series.y.push_back(own[cheapest(own, rays)].cost(rays) / 1e6);
-        }
+    std::vector<KeyEntry> key;
+    double least = infinity, most = 0.0;
+    for (const auto& [name, symbol] : total_structures) {
+        Series series = total_cost_series(lines, name);
+        if (series.x.empty()) continue;
+        key.push_back({name, symbol});
+        least = std::min(least, series.y.front()), most = std::max(most, series.y.back());
         chart.series.push_back(std::move(series));
     }
+    Svg& svg = chart.drawing.emplace(chart.title, 640, 500);
+    const double top = draw_key(svg, 8, 0, 620, key) + 62;
+    svg.text(at(8, top - 38), "build and rays, ms", {.anchor = Anchor::start, .size = 16});
+    const Panel panel{
+        74, top, 552, 500 - top - 56, log_axis(1.0, 1e9), log_axis(least, std::min(most, 1e9))};
+    draw_panel(svg, panel, {.title = scene_text(block.front().spec)});
+    for (std::size_t s = 0; s < chart.series.size(); ++s) {
+        const Series& series = chart.series[s];
+        std::vector<Point2> line;
+        for (std::size_t i = 0; i < series.x.size() && series.y[i] <= panel.y.high; ++i)
+            line.push_back(panel.place(series.x[i], series.y[i]));
+        svg.polyline(line, {.stroke = key[s].symbol.ink});
+        for (std::size_t i = s; i < line.size(); i += 8) draw_symbol(svg, line[i], key[s].symbol);
+    }
+    svg.text(at(350, 492), "rays", {.size = 16});
     return chart;
 }
 

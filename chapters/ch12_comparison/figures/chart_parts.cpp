@@ -63,9 +63,12 @@ double draw_key(Svg& svg, double left, double top, double width,
     return y + 8 - top;
 }
 
-double draw_families(Svg& svg, double left, double top, double width) {
+double draw_families(Svg& svg, double left, double top, double width,
+                     std::span<const std::string_view> names) {
     std::vector<KeyEntry> entries;
-    for (const Family& family : families()) entries.push_back({family.name, family.symbol});
+    for (const Family& family : families())
+        if (std::ranges::find(names, family.name) != names.end())
+            entries.push_back({family.name, family.symbol});
     return draw_key(svg, left, top, width, entries);
 }
 

@@ -42,7 +42,8 @@ struct KeyEntry {
     Symbol symbol;
 };
 double draw_key(Svg& svg, double left, double top, double width, std::span<const KeyEntry> entries);
-/// That of all families.
-double draw_families(Svg& svg, double left, double top, double width);
+/// That of these families.
+double draw_families(Svg& svg, double left, double top, double width,
+                     std::span<const std::string_view> names);
 
 }  // namespace space::ch12

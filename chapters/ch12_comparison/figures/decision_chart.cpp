@@ -48,6 +48,12 @@ double usual_bytes(std::span<const Block> shown, std::string_view structure) {
     return median(bytes);
 }
 
+/// 316 -> "300": half decades, with one digit.
+std::string round_count(double rays) {
+    const double decade = std::pow(10.0, std::floor(std::log10(rays) + 1e-9));
+    return tick_text(std::round(rays / decade) * decade, 1e10);
+}
+
 /// A question in its box, and beside it what to take where the answer is yes.
 struct Decision {
     std::string question, hint;
@@ -57,19 +63,17 @@ struct Decision {
 std::vector<Decision> decisions(std::span<const Block> shown) {
     const std::vector<RaysRange> ranges = most_often_cheapest(shown);
     Decision few{"Are rays few?", "build + rays", {}};
-    std::string last = "fast";
     double many = 0.0;
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const double to = i + 1 < ranges.size() ? ranges[i + 1].from : infinity;
         if (to <= 1e7)
-            few.answers.push_back(fmt::format(
-                "up to {}: {}", tick_text(std::pow(10.0, std::round(std::log10(to))), 1e10),
-                ranges[i].structure));
+            few.answers.push_back(
+                fmt::format("up to {}: {}", round_count(to), ranges[i].structure));
         if (ranges[i].structure == "fast-hq") many = ranges[i].from;
     }
     if (few.answers.empty()) few.answers.push_back("none, or a Morton tree");
     const std::string from =
-        many > 0.0 ? fmt::format("from {} rays on: fast-hq", tick_text(many, 1e10)) : "fast-hq";
+        many > 0.0 ? fmt::format("from {} rays on: fast-hq", round_count(many)) : "fast-hq";
     return {few,
             {"Does it move?", "every frame", {"refit the boxes,", "a new Morton tree at times"}},
             {"Are there copies?", "of whole objects", {"two levels: bvh-instanced"}},

@@ -19,21 +19,28 @@ std::vector<std::size_t> front_of(const std::vector<const ComparedRow*>& rows, a
         if (!rows[i]->is_peer) order.push_back(i);
     std::ranges::sort(order, {},
                       [&](std::size_t i) { return std::pair(x(*rows[i]), y(*rows[i])); });
-    // A gain of a twentieth may be the machine's mood.
+    // A gain of a tenth may be the machine's mood.
     std::vector<std::size_t> front;
     for (const std::size_t i : order)
-        if (front.empty() || y(*rows[i]) < 0.95 * y(*rows[front.back()])) front.push_back(i);
+        if (front.empty() || y(*rows[i]) < 0.9 * y(*rows[front.back()])) front.push_back(i);
     return front;
 }
 
 constexpr std::array<std::string_view, 6> pareto_scenes{"scan",    "building", "soup",
-                                                        "stadium", "slivers",  "blanket"};
+                                                        "stadium", "blanket",  "soup_uneven"};
 constexpr double pareto_left = 66, pareto_width = 250, pareto_step = 322, pareto_height = 236,
                  pareto_row = 276;
 
-/// Naive tracing is far above all others where scenes are large: the frames end below it.
+/// Naive tracing is far above all others where scenes are large, and BSP trees are not asked there:
+/// frames and keys are without them.
+constexpr std::array<std::string_view, 5> large_families{"k-d", "octrees", "BVH", "wide BVH",
+                                                         "others' code"};
+bool is_large_scale(const ComparedRow& row) {
+    return std::ranges::find(large_families, family_of(row).name) != large_families.end();
+}
+
 bool is_shown(const ComparedRow& row) {
-    return row.stands() && row.structure != "naive" && row.ready_ms() > 0.0 &&
+    return row.stands() && is_large_scale(row) && row.ready_ms() > 0.0 &&
            std::isfinite(row.mean_ns());
 }
 
@@ -82,8 +89,13 @@ void draw_pareto(Svg& svg, const Panel& panel, Block block, const PanelTexts& te
         draw_symbol(svg, place(*row), family_of(*row).symbol);
         labels.keep_free(place(*row), 7.0);
     }
-    for (const std::size_t i : front)
+    // Of steps that gain little one is named.
+    double named_cost = infinity;
+    for (const std::size_t i : front) {
+        if (i != front.back() && trace_cost(*rows[i]) > 0.8 * named_cost) continue;
+        named_cost = trace_cost(*rows[i]);
         labels.draw(svg, place(*rows[i]), rows[i]->structure, {.size = 16, .halo = true});
+    }
 }
 
 /// Each structure as a series over the blocks, for the data beside the drawing.
@@ -121,7 +133,7 @@ Chart pareto_chart(const Comparison& comparison) {
                 .series = series_over(shown, ready, trace_cost)};
     const std::size_t rows = (shown.size() + 1) / 2;
     Svg& svg = chart.drawing.emplace(chart.title, 640, 138 + pareto_row * double(rows));
-    const double top = draw_families(svg, 8, 0, 620) + 56;
+    const double top = draw_families(svg, 8, 0, 620, large_families) + 56;
     svg.text(at(8, top - 34), "ns per ray", {.anchor = Anchor::start, .size = 16});
     const Axis x = log_axis(ranges.least_x, ranges.most_x, 6);
     for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -158,7 +170,7 @@ Chart memory_chart(const Comparison& comparison) {
                 any = row;
             }
         // Few scenes that a structure can cope with are not the others' scenes.
-        if (any && 4 * bytes.size() >= 3 * shown.size() && name != "naive")
+        if (any && 4 * bytes.size() >= 3 * shown.size() && is_large_scale(*any))
             means.push_back({any, geometric_mean(bytes), geometric_mean(costs)});
     }
     Chart chart{.title = "Bytes a triangle against the cost of a ray, means over all scenes",
@@ -171,7 +183,7 @@ Chart memory_chart(const Comparison& comparison) {
         chart.series.push_back({.name = row->structure, .x = {bytes}, .y = {cost}});
     }
     Svg& svg = chart.drawing.emplace(chart.title, 640, 560);
-    const double top = draw_families(svg, 8, 0, 620) + 44;
+    const double top = draw_families(svg, 8, 0, 620, large_families) + 44;
     svg.text(at(8, top - 14), "a ray's cost, times that of the fastest",
              {.anchor = Anchor::start, .size = 16});
     const Panel panel{56,

@@ -62,7 +62,7 @@ void draw_cell(Svg& svg, Point2 corner, Vector2 size, double ratio) {
     svg.rect(corner, size,
              {.stroke = {},
               .fill = best ? Ink::blue : Ink::orange,
-              .opacity = best ? 0.35 : std::round(100.0 * (0.04 + 0.86 * share)) / 100.0});
+              .opacity = best ? 0.35 : std::round(100.0 * (0.04 + 0.51 * share)) / 100.0});
     svg.text(corner + Vector2(0.5f * size.x, 0.7f * size.y), short_ratio(ratio),
              {.size = 14, .bold = best});
 }
@@ -101,7 +101,7 @@ Chart regret_chart(const Comparison& comparison) {
         chart.series.push_back({.name = row.structure, .x = {}, .y = row.ratios});
     const double height = regret_top + regret_row * double(rows.size()) + 8;
     Svg& svg = chart.drawing.emplace(chart.title, 640, height);
-    const double width = std::min(34.0, (636 - regret_left) / double(shown.size()));
+    const double width = std::min(34.0, (606 - regret_left) / double(shown.size()));
     for (std::size_t i = 0; i < shown.size(); ++i)
         svg.text(at(regret_left + width * (double(i) + 0.72), regret_top - 8),
                  scene_text(shown[i].front().scene),
