@@ -1,5 +1,5 @@
 /// @file
-/// ./book lab --advise: what it says about a mesh.
+/// What ./book lab --advise says about a mesh.
 #pragma once
 
 #include "chapters/ch12_comparison/advice.hpp"

@@ -20,12 +20,6 @@
 #include <string_view>
 #include <vector>
 
-/// A face that crosses itself too often is given up, and so is what GLU holds then
-/// (triangulate.cpp).
-extern "C" const char* __lsan_default_suppressions() {
-    return "leak:__gl_\nleak:AddSentinel\n";
-}
-
 namespace space::fuzz {
 namespace {
 
