@@ -96,7 +96,7 @@ if [[ ${2:-} == check && -n $stub ]]; then
     cp "$copy/$stub" "$tree/original"
     ends 1 'is not solved yet\. This must be so, and is not: ' exercise check 1.1 --no-install
     # beside the list of what is configured, once
-    (($(grep -vc '^      + ' "$tree/said.txt") <= 45)) || wrong "a failed check is long: $(<"$tree/said.txt")"
+    (($(grep -vcE '^ +[+-] ' "$tree/said.txt") <= 45)) || wrong "a failed check is long: $(<"$tree/said.txt")"
     ! grep -qE '\{\?\}|host application' "$tree/said.txt" || wrong "a failed check is not readable: $(<"$tree/said.txt")"
     ends 0 '^1\.1 .*unsolved' exercise
     echo 'this is no C++' >>"$copy/$stub"
