@@ -124,7 +124,7 @@ function inTheMiddle(lists) {
 }
 
 // A drawing with steps (Svg::begin_step): its list of steps shows one at a time, with the groups of that step.
-function stepThrough(list) {
+function stepThrough(list, at = 0) {
   const drawing = list.previousElementSibling, items = [...list.children], last = items.length - 1;
   const groups = [...drawing.querySelectorAll("[data-first]")];
   const bar = document.createElement("div"), count = document.createElement("output");
@@ -158,25 +158,47 @@ function stepThrough(list) {
   list.before(bar);
   list.setAttribute("aria-live", "polite");
   list.classList.add("one-at-a-time");
-  show(0);
-  let before = 0;  // on paper all sentences stand under the last step's picture
-  whenPrinting(() => { before = now; show(last); }, () => show(before));
-  document.addEventListener("keydown", (event) => {
-    const moves = { ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last };
-    if (!(event.key in moves) || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
-    // It listens if it has the focus; if none has, the one nearest to the window's middle does, but leaves Home and End to
-    // the page.
-    const lists = [...document.querySelectorAll("ol.steps")], active = document.activeElement;
-    const focused = lists.find((other) => other.parentElement.contains(active));
-    if ((focused ?? inTheMiddle(lists)) !== list) return;
-    if (!focused && (event.key.length < 5 || active.matches("input, textarea, .scroll, .fragment"))) return;
-    show(moves[event.key]);
-    event.preventDefault();
-  });
+  list.show = show;
+  list.moves = () => ({ ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last });
+  list.step = () => now;
+  show(at);
 }
 
+// The steps of a drawing that was drawn again: its sentences stand in its groups.
+function renewSteps(drawing) {
+  let at = 0;
+  for (let next; (next = drawing.nextElementSibling)?.matches(".step-bar, ol.steps"); next.remove()) at = next.step?.() ?? at;
+  const told = [...drawing.querySelectorAll("[data-first] > desc")];
+  if (!told.length) return;
+  const list = document.createElement("ol");
+  list.className = "steps";
+  for (const { textContent } of told) list.append(Object.assign(document.createElement("li"), { textContent }));
+  drawing.after(list);
+  stepThrough(list, at);
+}
+
+const stepLists = () => [...document.querySelectorAll("ol.steps")];
+// On paper all sentences stand under the last step's picture.
+let stepsBefore = new Map();
+whenPrinting(() => {
+  stepsBefore = new Map(stepLists().map((list) => [list, list.step()]));
+  for (const list of stepLists()) list.show(Infinity);
+}, () => stepsBefore.forEach((step, list) => list.show(step)));
+
+// The steps that have the focus listen; if none have, those nearest to the window's middle do, but leave Home and End to
+// the page.
+document.addEventListener("keydown", (event) => {
+  if (event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
+  const lists = stepLists(), active = document.activeElement;
+  const focused = lists.find((list) => list.parentElement.contains(active)), list = focused ?? (lists.length ? inTheMiddle(lists) : null);
+  if (!list || !(event.key in list.moves())) return;
+  if (!focused && (event.key.length < 5 || active.matches("input, select, textarea, .scroll, .fragment"))) return;
+  list.show(list.moves()[event.key]);
+  event.preventDefault();
+});
+
 document.addEventListener("DOMContentLoaded", () => {
-  document.querySelectorAll("ol.steps").forEach(stepThrough);
+  stepLists().forEach((list) => stepThrough(list));
   if (/\\[(\[]/.test(document.querySelector(".contents")?.textContent)) load("mathjax/MathJax.js?config=TeX-AMS_SVG-full");
   else document.documentElement.classList.add("formulas-shown");
 

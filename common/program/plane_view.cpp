@@ -11,6 +11,7 @@ std::vector<Point2> PlaneView::operator()(const ConvexCell& cell) const {
 void draw_segment(Svg& svg, const PlaneView& view, const Double2& from, const Double2& to,
                   const Style& style) {
     const Point2 a = view(from), b = view(to);
+    if (a == b) return svg.circle(a, 2.2, style);
     const Vector2 along = glm::normalize(b - a), across = 2.2f * Vector2(-along.y, along.x);
     svg.polygon({a + across, b + across, b - across, a - across}, style);
 }
@@ -22,7 +23,8 @@ void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const
 
 Point2 beside(const PlaneView& view, const Double2& from, const Double2& to, double along,
               double away) {
-    const Double2 way = glm::normalize(to - from), front(-way.y, way.x);
+    const Double2 way = from == to ? Double2(1.0, 0.0) : glm::normalize(to - from),
+                  front(-way.y, way.x);
     return view(from + along * (to - from) + away / view.scale * front);
 }
 

@@ -1,6 +1,5 @@
 #include "common/program/svg.hpp"
 
-#include "common/program/image.hpp"
 #include "common/program/svg_colors.hpp"
 #include "common/program/xml.hpp"
 
@@ -93,21 +92,6 @@ std::string style_block() {
         "{4}{5}</style>\n",
         light, dark, fmt::format(fmt::runtime(page), palette[1].light),
         fmt::format(fmt::runtime(page), palette[1].dark), font_rules, rules);
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        unsigned group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= count ? digits[group >> (18 - 6 * k) & 63u] : '=';
-    }
-    return text;
 }
 
 std::string paint(const Style& style) {
@@ -308,18 +292,6 @@ void Svg::begin_step_alone(std::size_t step, std::size_t steps, std::string_view
 void Svg::end_group() {
     if (open_groups_-- == 0) throw std::logic_error("svg: end_group without begin_group");
     body_ += "</g>\n";
-}
-
-void Svg::picture(Point2 corner, Vector2 size, const Image& image, std::string_view id) {
-    const bool pixels_show = size.x >= 2.0f * static_cast<float>(image.width());
-    element(
-        "image",
-        fmt::format("{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
-                    "href=\"data:image/png;base64,{}\"",
-                    pixels_show ? " class=\"pixels\" image-rendering=\"optimizeSpeed\"" : "",
-                    svg_number(corner.x), svg_number(corner.y), svg_number(size.x),
-                    svg_number(size.y), base64(png_bytes(image))),
-        id);
 }
 
 std::string Svg::document(std::string_view figure_id) const {

@@ -31,7 +31,7 @@ class WalkPaper {
         : tree_(tree),
           ray_(ray),
           steps_(steps),
-          view_{.corner = {8, 10}, .scale = frame / tree.size, .size = tree.size},
+          view_(walk_view(tree.size)),
           exit_(exit_of(ray, tree.size)) {
         std::vector<std::vector<std::size_t>> children;
         for (const DrawnTree::Node& node : tree.nodes) children.push_back(node.children);
@@ -264,6 +264,10 @@ double distance_along(const BasicRay<2>& ray, const Segment& segment) {
     const double t = (from.x * way.y - from.y * way.x) / turn,
                  s = (from.x * d.y - from.y * d.x) / turn;
     return t >= 0.0 && s >= 0.0 && s <= 1.0 ? t : double{infinity};
+}
+
+PlaneView walk_view(double size) {
+    return {.corner = {8, 10}, .scale = frame / size, .size = size};
 }
 
 Svg walk_drawing(std::string title, const DrawnTree& tree, const BasicRay<2>& ray,

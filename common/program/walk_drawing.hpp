@@ -51,6 +51,9 @@ std::string interval(double enter, double leave);
 /// The ray's t on a segment, in double; infinity where it misses.
 double distance_along(const BasicRay<2>& ray, const Segment& segment);
 
+/// Where such a drawing has its plane, a square from (0, 0) on.
+PlaneView walk_view(double size);
+
 /// The last step is what shows without scripts and on paper: let it sum up.
 Svg walk_drawing(std::string title, const DrawnTree& tree, const BasicRay<2>& ray,
                  const std::vector<WalkStep>& steps);

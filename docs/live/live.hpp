@@ -1,0 +1,75 @@
+/// @file
+/// Figures that answer when they are touched: the book's own algorithms, compiled to WebAssembly,
+/// draw a figure again for each new state. A figure is a function from its state to a drawing, a
+/// sentence, and what may be moved. Errors come back as values: a page has no exceptions.
+#pragma once
+
+#include "common/program/svg.hpp"
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace space::live {
+
+/// What a reader has changed, as it stands in the page's address: "ray=1.5,2;rule=sah". What is
+/// missing or makes no sense is as the figure has it at first.
+class State {
+  public:
+    explicit State(std::string_view text);
+
+    double number(std::string_view name, double first, double least, double most) const;
+    /// Both coordinates between least and most.
+    Double2 point(std::string_view name, const Double2& first, double least, double most) const;
+    /// One of the names, by its place among them.
+    std::size_t choice(std::string_view name, std::size_t first,
+                       std::span<const std::string_view> names) const;
+
+  private:
+    std::string_view value(std::string_view name) const;
+    std::vector<std::pair<std::string, std::string>> values_;
+};
+
+/// A point that may be dragged. It is drawn at `zero` + `unit` * `value`, each axis for itself.
+struct Handle {
+    std::string name, label;
+    Double2 value;
+    Double2 zero, unit;  ///< drawing units
+};
+/// One of several names.
+struct Choice {
+    std::string name, label;
+    std::span<const std::string_view> names;
+    std::size_t chosen;
+};
+/// A number.
+struct Slider {
+    std::string name, label;
+    double value, least, most, step;
+};
+
+/// The figure in a state.
+struct Answer {
+    Svg drawing;
+    std::string summary;  ///< a sentence for those who do not see the drawing, and for those who do
+    std::vector<Handle> handles = {};
+    std::vector<Choice> choices = {};
+    std::vector<Slider> sliders = {};
+};
+
+/// A live figure, beside the drawing of the same id.
+struct LiveFigure {
+    std::string_view id;  ///< "fig_07_17"
+    Answer (*answer)(const State&);
+};
+
+/// All there are.
+std::span<const LiveFigure> live_figures();
+
+/// The answer to "ID;NAME=VALUE;...", as JSON: svg, summary, handles, choices, sliders; or error.
+std::string answer_text(std::string_view request);
+
+}  // namespace space::live

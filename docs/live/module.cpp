@@ -1,0 +1,38 @@
+// What the page's script calls: a text goes in, a text comes out.
+#include "docs/live/live.hpp"
+
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+std::string request, answer;
+
+}  // namespace
+
+extern "C" {
+
+/// Where the script writes a request of so many bytes.
+__attribute__((export_name("request_buffer"))) char* request_buffer(std::size_t size) {
+    request.assign(size, ' ');
+    return request.data();
+}
+/// Answers it; the number of bytes of the answer.
+__attribute__((export_name("answer_request"))) std::size_t answer_request() {
+    answer = space::live::answer_text(request);
+    return answer.size();
+}
+/// The answer, until the next request.
+__attribute__((export_name("answer_bytes"))) const char* answer_bytes() {
+    return answer.data();
+}
+
+// What an exception would have been ends the call: the script sees a trap, shows the drawing that
+// was there, and says so.
+void* __cxa_allocate_exception(std::size_t size) {
+    return std::malloc(size);
+}
+void __cxa_throw(void*, void*, void (*)(void*)) {
+    __builtin_trap();
+}
+}
