@@ -1,0 +1,27 @@
+/// @file
+/// Bytes as text, for files that hold other files.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace space {
+
+/// RFC 4648, section 4: three bytes as four letters, the last ones filled up by "=".
+inline std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
+        unsigned group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= count ? digits[group >> (18 - 6 * k) & 63u] : '=';
+    }
+    return text;
+}
+
+}  // namespace space
