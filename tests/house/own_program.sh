@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # own_program.sh ROOT COMPILER: proves that
-# - docs/own_program, copied out of the book, builds in both ways that its CMakeLists.txt knows and prints what it should,
-#   and that the floating-point options come with it, and nothing but the structures: no test, no program, no warning;
+# - docs/own_program, copied out of the book, builds and prints what it should, that the floating-point options come with
+#   it, and nothing but the structures: no test, no program, no warning; and that both ways that its CMakeLists.txt knows
+#   are the same commands to compiler and linker;
 # - for each header of the page's table needed_files.sh copies all that is included, and names the libraries that the table
 #   names; the table has every chapter's structures, and the target every .cpp file that they need;
 # - such a copy, of a structure with .cpp files, compiles and runs.
@@ -13,26 +14,33 @@ fault() { echo "own_program.sh: $1" && exit 1; }
 
 cp -r "$root/docs/own_program" "$folder/one"
 cp -r "$root/docs/own_program" "$folder/other"
+# commands WAY: all that building runs, whatever the folders are called
+commands() {
+    ninja -C "$folder/$1/build" -t commands | sed "s|$folder/$1/|/|g; s|_deps/splitting_space-build|splitting_space|g"
+}
 for way in one other; do
     fetch=OFF
     [[ $way == one ]] || fetch=ON
-    # Without optimisation it takes half a minute less. The second build finds the first one's files in the cache.
+    # Without optimisation it takes half a minute less.
     launcher=$(command -v ccache || true)
     cmake -G Ninja -S "$folder/$way" -B "$folder/$way/build" -D SPLITTING_SPACE="$root" -D BY_FETCH_CONTENT=$fetch \
         -D CMAKE_CXX_COMPILER="$compiler" ${launcher:+-D CMAKE_CXX_COMPILER_LAUNCHER="$launcher"} \
         -D CMAKE_EXPORT_COMPILE_COMMANDS=ON -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG='-Wall -Wextra -Werror' >"$folder/log" 2>&1 ||
         { cat "$folder/log" && fault "configuring failed"; }
     ! grep -i warning "$folder/log" || fault "configuring warns"
-    cmake --build "$folder/$way/build" >"$folder/log" 2>&1 || { cat "$folder/log" && fault "building failed"; }
-    ! grep 'warning:' "$folder/log" || fault "compiling warns"
-    grep -- 'own_program.cpp' "$folder/$way/build/compile_commands.json" | grep -- '-fno-fast-math -ffp-contract=off' >/dev/null ||
-        fault 'options that answers depend on do not travel with the target'
-    "$folder/$way/build/own_program" >"$folder/printed"
-    diff "$folder/printed" "$root/tests/house/own_program.txt" || fault "it printed (<) what it should not (>)"
-    programs=$(find "$folder/$way/build" -type f -executable -not -path '*/CMakeFiles/*' -printf '%f ')
-    [[ $programs == 'own_program ' ]] || fault "more than one program: $programs"
     [[ $(ctest --test-dir "$folder/$way/build" -N) == *'Total Tests: 0'* ]] || fault 'the book'\''s tests come with it'
 done
+[[ $(commands one) == *own_program.cpp* ]] || fault 'ninja tells no commands'
+diff <(commands one) <(commands other) || fault 'the two ways compile or link otherwise'
+build=$folder/one/build
+cmake --build "$build" >"$folder/log" 2>&1 || { cat "$folder/log" && fault "building failed"; }
+! grep 'warning:' "$folder/log" || fault "compiling warns"
+grep -- 'own_program.cpp' "$build/compile_commands.json" | grep -- '-fno-fast-math -ffp-contract=off' >/dev/null ||
+    fault 'options that answers depend on do not travel with the target'
+"$build/own_program" >"$folder/printed"
+diff "$folder/printed" "$root/tests/house/own_program.txt" || fault "it printed (<) what it should not (>)"
+programs=$(find "$build" -type f -executable -not -path '*/CMakeFiles/*' -printf '%f ')
+[[ $programs == 'own_program ' ]] || fault "more than one program: $programs"
 
 needed() { bash "$root/common/scripts/needed_files.sh" "$@"; }
 page=$root/chapters/ch12_comparison/own_program.dox
