@@ -37,8 +37,9 @@ window.MathJax = {
 function load(script) {
   const element = document.createElement("script");
   element.src = script;
-  return new Promise((loaded) => {
+  return new Promise((loaded, failed) => {
     element.onload = loaded;
+    element.onerror = () => failed(new Error(`${script} can't be read`));
     document.head.append(element);
   });
 }

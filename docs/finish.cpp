@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace space::docs {
@@ -243,13 +244,30 @@ std::string without_summary(const std::string& page) {
                            [](std::string_view) { return ""; });
 }
 
-void finish_pages(const std::filesystem::path& site) {
+std::string with_live_figures(std::string page, std::span<const std::string> live) {
+    constexpr std::string_view box = "<div class=\"drawing\"", head_ends = "</head>";
+    for (const std::string& id : live) {
+        const std::string mark =
+            fmt::format("{}><svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{}\"", box, id);
+        if (const std::size_t at = page.find(mark); at != page.npos)
+            page.insert(at + box.size(), fmt::format(" data-live=\"{}\"", id));
+    }
+    const bool has_any = !live.empty() && page.find(" data-live=") != page.npos;
+    if (const std::size_t at = page.find(head_ends); has_any && at != page.npos)
+        page.insert(
+            at,
+            "<link href=\"live.css\" rel=\"stylesheet\"/>\n<script src=\"live.js\"></script>\n");
+    return page;
+}
+
+void finish_pages(const std::filesystem::path& site, std::span<const std::string> live) {
     const std::string menu = menu_without_scripts(read_file(site / "navtreedata.js"));
     for (const auto& entry : std::filesystem::directory_iterator(site)) {
         if (entry.path().extension() != ".html") continue;
         std::string page = read_file(entry.path());
         page = kept_together(without_guesses(dedent_fragments(without_summary(page))));
         page = inline_drawings(with_table_heads(with_alternatives(page)), site);
+        page = with_live_figures(std::move(page), live);
         constexpr std::string_view content = "<div id=\"doc-content\">\n";
         if (const std::size_t at = page.find(content); at != page.npos)
             page.insert(at + content.size(), menu);

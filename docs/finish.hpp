@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace space::docs {
@@ -39,7 +40,11 @@ std::string menu_without_scripts(const std::string& navigation);
 /// private classes).
 std::string without_summary(const std::string& page);
 
+/// Drawings that have a live twin of the same id (docs/live) are marked, and a page that has any
+/// loads what plays them.
+std::string with_live_figures(std::string page, std::span<const std::string> live);
+
 /// All of these, on every page of the site.
-void finish_pages(const std::filesystem::path& site);
+void finish_pages(const std::filesystem::path& site, std::span<const std::string> live);
 
 }  // namespace space::docs

@@ -1,5 +1,6 @@
 /// Makes the book as a web site: writes the generated pages, runs Doxygen, finishes its pages, adds
 /// MathJax. Run   make_site --out build/book/site
+#include "common/program/base64.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/options.hpp"
@@ -16,7 +17,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -39,10 +43,10 @@ void copy_mathjax(const fs::path& from, const fs::path& to) {
 }
 
 /// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
-void run_doxygen(const docs::Places& places, const fs::path& site) {
+void run_doxygen(const docs::Places& places, const std::string& aliases, const fs::path& site) {
     const fs::path& work = places.pages;
     std::string settings =
-        read_file(fs::path(BOOK_DOXYFILE)) + docs::figure_aliases(places) +
+        read_file(fs::path(BOOK_DOXYFILE)) + docs::figure_aliases(places) + aliases +
         fmt::format(
             "LAYOUT_FILE = \"{0}/layout.xml\"\n"
             "STRIP_FROM_PATH = \"{0}/texts\" \"{2}\"\nEXAMPLE_PATH += \"{0}\"\n"
@@ -63,6 +67,44 @@ void run_doxygen(const docs::Places& places, const fs::path& site) {
     if (WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == interrupted)
         std::raise(SIGINT);  // which std::system kept from us
     if (status != 0) throw input_error("Doxygen has warnings or failed; its lines above say where");
+}
+
+/// The live figures and the module that draws them; none where it was not built.
+struct Live {
+    std::vector<std::string> ids = {};
+    std::string module = {};
+};
+
+Live read_live() {
+    const fs::path module = BOOK_LIVE_MODULE;
+    if (module.empty()) return {};
+    const std::string list = read_file(book_root() / "docs/live/figures.cpp");
+    static const std::regex entry(R"re(\{"(\w+)",\s*\w+\})re");
+    Live live{.module = read_file(module)};
+    for (std::sregex_iterator at(list.begin(), list.end(), entry), end; at != end; ++at)
+        live.ids.push_back(at->str(1));
+    return live;
+}
+
+/// What \\live_figures in a page stands for.
+std::string live_alias(const Live& live) {
+    if (live.ids.empty()) return "ALIASES += \"live_figures=\"\n";
+    return fmt::format(
+        "ALIASES += \"live_figures={} figures are live: press <b>Move it yourself</b> and drag "
+        "their points, by mouse, finger or arrow keys; the book's own C++ draws them again. It is "
+        "in a module of {:.2f} MB beside these pages, and needs no network. What you have made "
+        "stands in the page's address, as a link to share, and can be saved as an SVG file.\"\n",
+        live.ids.size(), static_cast<double>(live.module.size()) * 1e-6);
+}
+
+/// The module goes into the site as a script that holds its bytes: a page that was opened from a
+/// file may load no other.
+void add_live(const Live& live, const fs::path& site) {
+    if (live.ids.empty()) return;
+    write_file(site / "live_module.js",
+               fmt::format("window.bookModule = \"{}\";\n", base64(live.module)));
+    for (const char* part : {"live.js", "live.css"})
+        fs::copy_file(book_root() / "docs/live" / part, site / part);
 }
 
 int make_site(int argc, char** argv) {
@@ -86,8 +128,10 @@ int make_site(int argc, char** argv) {
     fs::remove_all(fresh);
     places.pages = work;
     docs::write_pages(places);
-    run_doxygen(places, fresh);
-    docs::finish_pages(fresh);
+    const Live live = read_live();
+    run_doxygen(places, live_alias(live), fresh);
+    docs::finish_pages(fresh, live.ids);
+    add_live(live, fresh);
     docs::write_search_text(fresh);
     copy_mathjax(BOOK_MATHJAX, fresh / "mathjax");
     if (exists(work / "data")) fs::copy(work / "data", fresh);

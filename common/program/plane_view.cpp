@@ -23,8 +23,9 @@ void draw_front_tick(Svg& svg, const PlaneView& view, const Double2& from, const
 
 Point2 beside(const PlaneView& view, const Double2& from, const Double2& to, double along,
               double away) {
-    const Double2 way = from == to ? Double2(1.0, 0.0) : glm::normalize(to - from),
-                  front(-way.y, way.x);
+    const Double2 line = to - from;
+    const bool is_point = glm::dot(line, line) == 0.0;  // also where the squares are too small
+    const Double2 way = is_point ? Double2(1.0, 0.0) : glm::normalize(line), front(-way.y, way.x);
     return view(from + along * (to - from) + away / view.scale * front);
 }
 

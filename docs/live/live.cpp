@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace space::live {
 namespace {
@@ -23,12 +23,25 @@ std::string quoted(std::string_view text) {
     return result + '"';
 }
 
+/// Takes what stands before a sign, and the sign, from a text.
+std::string_view cut(std::string_view& text, char sign) {
+    const std::string_view part = text.substr(0, text.find(sign));
+    text.remove_prefix(std::min(part.size() + 1, text.size()));
+    return part;
+}
+
 /// A whole text that is a finite number, between the two; else `first`.
-double number_of(const std::string& text, double first, double least, double most) {
+double number_of(std::string_view text, double first, double least, double most) {
+    const std::string whole(text);
     char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(value)) return first;
+    const double value = std::strtod(whole.c_str(), &end);
+    if (whole.empty() || *end != '\0' || !std::isfinite(value)) return first;
     return std::clamp(value, least, most);
+}
+
+Double2 point_of(std::string_view text, const Double2& first, double least, double most) {
+    const std::string_view x = cut(text, ',');
+    return {number_of(x, first.x, least, most), number_of(text, first.y, least, most)};
 }
 
 template <class Items, class Text>
@@ -42,72 +55,99 @@ std::string pair_text(const Double2& p) {
     return fmt::format("[{},{}]", p.x, p.y);
 }
 
+std::string text(const Handle& h) {
+    return fmt::format(R"({{"name":{},"label":{},"value":{},"zero":{},"unit":{}}})", quoted(h.name),
+                       quoted(h.label), pair_text(h.value), pair_text(h.zero), pair_text(h.unit));
+}
+
+std::string text(const Choice& c) {
+    return fmt::format(R"({{"name":{},"label":{},"names":{},"chosen":{}}})", quoted(c.name),
+                       quoted(c.label), list(c.names, quoted), c.chosen);
+}
+
+std::string text(const Slider& s) {
+    return fmt::format(R"({{"name":{},"label":{},"value":{},"least":{},"most":{},"step":{}}})",
+                       quoted(s.name), quoted(s.label), s.value, s.least, s.most, s.step);
+}
+
+std::string text(const Points& p) {
+    return fmt::format(
+        R"({{"name":{},"label":{},"values":{},"zero":{},"unit":{},"least":{},"most":{},)"
+        R"("limit":{}}})",
+        quoted(p.name), quoted(p.label), list(p.values, pair_text), pair_text(p.zero),
+        pair_text(p.unit), p.least, p.most, p.limit);
+}
+
+std::string text(const Picture& p) {
+    return fmt::format(R"({{"corner":{},"size":{},"width":{},"height":{},"rays":{}}})",
+                       pair_text(Double2(p.corner)), pair_text(Double2(p.size)), p.width, p.height,
+                       p.rays);
+}
+
+template <class Part>
+std::string text(const std::optional<Part>& part) {
+    return part ? text(*part) : "null";
+}
+template <class Part>
+std::string text(const std::vector<Part>& parts) {
+    return list(parts, [](const Part& part) { return text(part); });
+}
+
 }  // namespace
 
 State::State(std::string_view text) {
     while (!text.empty()) {
-        const std::string_view part = text.substr(0, text.find(';'));
-        text.remove_prefix(std::min(part.size() + 1, text.size()));
-        if (const std::size_t equals = part.find('='); equals != part.npos)
-            values_.emplace_back(part.substr(0, equals), part.substr(equals + 1));
+        std::string_view part = cut(text, ';');
+        const std::string_view name = cut(part, '=');
+        values_.emplace_back(name, part);
     }
 }
 
-std::string_view State::value(std::string_view name) const {
+std::optional<std::string_view> State::value(std::string_view name) const {
     for (const auto& [key, value] : values_)
         if (key == name) return value;
     return {};
 }
 
 double State::number(std::string_view name, double first, double least, double most) const {
-    return number_of(std::string(value(name)), first, least, most);
+    return number_of(value(name).value_or(""), first, least, most);
 }
 
 Double2 State::point(std::string_view name, const Double2& first, double least, double most) const {
-    const std::string_view text = value(name);
-    const std::size_t comma = std::min(text.find(','), text.size());
-    return {number_of(std::string(text.substr(0, comma)), first.x, least, most),
-            number_of(std::string(text.substr(std::min(comma + 1, text.size()))), first.y, least,
-                      most)};
+    return point_of(value(name).value_or(""), first, least, most);
 }
 
 std::size_t State::choice(std::string_view name, std::size_t first,
                           std::span<const std::string_view> names) const {
-    const auto found = std::find(names.begin(), names.end(), value(name));
+    const auto found = std::find(names.begin(), names.end(), value(name).value_or(""));
     return found == names.end() ? first : static_cast<std::size_t>(found - names.begin());
 }
 
-std::string answer_text(std::string_view request) {
-    const std::string_view id = request.substr(0, request.find(';'));
-    const State state(request.substr(std::min(id.size() + 1, request.size())));
+std::vector<Double2> State::points(std::string_view name, std::span<const Double2> first,
+                                   double least, double most, std::size_t limit) const {
+    std::optional<std::string_view> rest = value(name);
+    if (!rest) return {first.begin(), first.end()};
+    std::vector<Double2> points;
+    while (!rest->empty() && points.size() < limit)
+        if (const std::string_view part = cut(*rest, ' '); part.find(',') != part.npos)
+            points.push_back(point_of(part, Double2((least + most) / 2), least, most));
+    return points;
+}
+
+Reply reply_to(std::string_view request) {
+    const std::string_view id = cut(request, ';');
     for (const LiveFigure& figure : live_figures()) {
         if (figure.id != id) continue;
-        const Answer answer = figure.answer(state);
-        return fmt::format(
-            "{{\"svg\":{},\"summary\":{},\"handles\":{},\"choices\":{},\"sliders\":{}}}",
-            quoted(answer.drawing.document(id)), quoted(answer.summary),
-            list(answer.handles,
-                 [](const Handle& h) {
-                     return fmt::format(
-                         "{{\"name\":{},\"label\":{},\"value\":{},\"zero\":{},\"unit\":{}}}",
-                         quoted(h.name), quoted(h.label), pair_text(h.value), pair_text(h.zero),
-                         pair_text(h.unit));
-                 }),
-            list(answer.choices,
-                 [](const Choice& c) {
-                     return fmt::format("{{\"name\":{},\"label\":{},\"names\":{},\"chosen\":{}}}",
-                                        quoted(c.name), quoted(c.label),
-                                        list(c.names, [](auto name) { return quoted(name); }),
-                                        c.chosen);
-                 }),
-            list(answer.sliders, [](const Slider& s) {
-                return fmt::format(
-                    "{{\"name\":{},\"label\":{},\"value\":{},\"least\":{},"
-                    "\"most\":{},\"step\":{}}}",
-                    quoted(s.name), quoted(s.label), s.value, s.least, s.most, s.step);
-            }));
+        Answer answer = figure.answer(State(request));
+        Reply reply{fmt::format(
+            R"({{"svg":{},"summary":{},"handles":{},"choices":{},"sliders":{},"points":{},)"
+            R"("picture":{}}})",
+            quoted(answer.drawing.document(id)), quoted(answer.summary), text(answer.handles),
+            text(answer.choices), text(answer.sliders), text(answer.points), text(answer.picture))};
+        if (answer.picture) reply.pixels = std::move(answer.picture->rgba);
+        return reply;
     }
-    return fmt::format("{{\"error\":{}}}", quoted(fmt::format("no live figure {}", id)));
+    return {fmt::format(R"({{"error":{}}})", quoted(fmt::format("no live figure {}", id)))};
 }
 
 }  // namespace space::live

@@ -7,6 +7,8 @@
 #include "common/program/svg.hpp"
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,9 +29,13 @@ class State {
     /// One of the names, by its place among them.
     std::size_t choice(std::string_view name, std::size_t first,
                        std::span<const std::string_view> names) const;
+    /// "x,y x,y ..", as many as `limit`, each coordinate between least and most. An empty text
+    /// means no points.
+    std::vector<Double2> points(std::string_view name, std::span<const Double2> first, double least,
+                                double most, std::size_t limit) const;
 
   private:
-    std::string_view value(std::string_view name) const;
+    std::optional<std::string_view> value(std::string_view name) const;
     std::vector<std::pair<std::string, std::string>> values_;
 };
 
@@ -51,13 +57,33 @@ struct Slider {
     double value, least, most, step;
 };
 
-/// The figure in a state.
+/// Points drawn by hand: a press where none is adds one. They stand as handles do.
+struct Points {
+    std::string name, label;
+    std::vector<Double2> values;
+    Double2 zero, unit;
+    double least, most;
+    std::size_t limit;
+};
+/// Pixels over a part of the drawing. Who drags them moves the first slider and the second.
+struct Picture {
+    Point2 corner;
+    Vector2 size;  ///< drawing units
+    int width, height;
+    std::vector<std::uint8_t> rgba;  ///< sRGB, row by row from the top
+    double rays = 0;                 ///< as many were traced; the page tells how many a second
+};
+
+/// The figure in a state. While it is moved the page says detail=low of a figure with a picture,
+/// which may be coarser then.
 struct Answer {
     Svg drawing;
     std::string summary;  ///< a sentence for those who do not see the drawing, and for those who do
     std::vector<Handle> handles = {};
     std::vector<Choice> choices = {};
     std::vector<Slider> sliders = {};
+    std::optional<Points> points = {};
+    std::optional<Picture> picture = {};
 };
 
 /// A live figure, beside the drawing of the same id.
@@ -69,7 +95,14 @@ struct LiveFigure {
 /// All there are.
 std::span<const LiveFigure> live_figures();
 
-/// The answer to "ID;NAME=VALUE;...", as JSON: svg, summary, handles, choices, sliders; or error.
-std::string answer_text(std::string_view request);
+/// What the page gets: JSON (svg, summary, handles, choices, sliders, points, picture; or error),
+/// and the picture's pixels.
+struct Reply {
+    std::string text;
+    std::vector<std::uint8_t> pixels = {};
+};
+
+/// The reply to "ID;NAME=VALUE;...".
+Reply reply_to(std::string_view request);
 
 }  // namespace space::live

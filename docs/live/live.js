@@ -1,159 +1,316 @@
 // Live figures: the book's own C++, compiled to WebAssembly, draws a figure again whenever its reader moves something.
 // Without scripts or without the module the drawing stays as the book has it. Nothing is fetched: the module is a script
 // that holds its bytes in base64, so that a page works from a folder, too.
-const live = { asked: null };
+const live = { rest: 400 };  // ms without a change until the address follows and the new state is told
 
-// The module's three functions, called with texts.
+// What the module's functions do, with texts: one for all figures of a page, made when the first is played.
 live.start = async () => {
   if (!window.bookModule) await load("live_module.js");
-  const bytes = Uint8Array.from(atob(window.bookModule), (c) => c.charCodeAt(0));
-  const module = await WebAssembly.compile(bytes), nothing = {};
+  const bytes = Uint8Array.from(atob(window.bookModule), (c) => c.charCodeAt(0)), nothing = {};
+  const module = await WebAssembly.compile(bytes);
+  // What the C library would ask of a system: there is none.
   for (const { module: from, name } of WebAssembly.Module.imports(module)) (nothing[from] ??= {})[name] = () => 0;
   const make = async () => {
-    live.code = (await WebAssembly.instantiate(module, nothing)).exports;
-    live.code._initialize();
+    const { exports } = await WebAssembly.instantiate(module, nothing);
+    exports._initialize();
+    return exports;
   };
-  await make();
-  live.ask = (text) => {
-    const request = new TextEncoder().encode(text), { memory } = live.code;
+  let made = make();
+  live.ask = async (text) => {
+    const code = await made, request = new TextEncoder().encode(text), began = performance.now();
+    const view = (at, size) => new Uint8Array(code.memory.buffer, at, size);
     try {
-      new Uint8Array(memory.buffer, live.code.request_buffer(request.length), request.length).set(request);
-      const size = live.code.answer_request();
-      return JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, live.code.answer_bytes(), size)));
+      view(code.request_buffer(request.length), request.length).set(request);
+      const size = code.answer_request(), answer = JSON.parse(new TextDecoder().decode(view(code.answer_bytes(), size)));
+      answer.ms = performance.now() - began;
+      const { picture } = answer;
+      if (picture) picture.rgba = new Uint8ClampedArray(view(code.picture_bytes(), 4 * picture.width * picture.height));
+      return answer;
     } catch (fault) {  // what would have been an exception ended the call: the module begins anew
-      make();
+      made = make();
       return { error: String(fault) };
     }
   };
 };
 
+live.element = (tag, properties = {}, parent = null) => {
+  const element = Object.assign(document.createElement(tag), properties);
+  parent?.append(element);
+  return element;
+};
+live.drawn = (tag, attributes = {}, parent = null) => {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  parent?.append(element);
+  return element;
+};
+
+// Makes the drawing in `box` live, in a state: a Map from names to texts.
 live.play = async (box, state) => {
-  const drawing = box.querySelector("svg.book-figure"), id = drawing.id;
-  await (live.asked ??= live.start());
-  const make = (tag, properties, parent = bar) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    parent?.append(element);
-    return element;
-  };
-  const bar = make("div", { className: "live-bar" }, null), said = make("output", {}), controls = new Map();
-  const svgElement = (tag, attributes, parent) => {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-    parent?.append(element);
-    return element;
-  };
-  const overlay = svgElement("svg", { class: "live-handles", viewBox: drawing.getAttribute("viewBox") });
-  let shown = drawing, answer = null, waits = false;
+  const id = box.dataset.live, { element, drawn } = live;
+  live.started ??= live.start();
+  await live.started;
+  const svg = box.querySelector("svg.book-figure") ?? drawn("svg", { id, class: "book-figure" });
+  box.querySelector("img")?.replaceWith(svg);
+  svg.setAttribute("role", "group");  // of an image no screen reader would show the parts
+  svg.classList.add("played");
+
+  const bar = element("div", { className: "live-bar", role: "group" }), controls = element("div", { className: "live-controls" }, bar);
+  bar.setAttribute("aria-label", "What may be changed in the figure");
+  const buttons = element("div", { className: "live-controls" }, bar), said = element("p", { className: "live-said" }, bar);
+  const told = element("p", { className: "live-told", role: "status" }, bar);
+  // Over the drawing, whose parts are drawn anew: points to drag, and pixels.
+  const overlay = drawn("g", { class: "live-overlay" }, svg), shown = new Map();
+  let answer = null, held = false, waits = false, resting = 0;
 
   const address = () => [id, ...[...state].map(([name, value]) => `${name}=${value}`)].join(";");
-  const draw = (text = address()) => {
-    const began = performance.now(), next = live.ask(text);
+  const rest = () => {
+    history.replaceState(null, "", `#${encodeURI(address())}`);
+    told.textContent = answer.summary;
+    if (answer.picture && !held) draw();  // in full
+  };
+  // Of each kind of part, those that this answer names: made where they are new, gone where they are named no more.
+  const renew = (parts, make) => parts.map((part) => {
+    let control = shown.get(part.name);
+    if (!control) shown.set(part.name, control = make(part));
+    control.renew(part);
+    return part.name;
+  });
+  const draw = async (quick = false) => {
+    const next = await live.ask(address() + (quick ? ";detail=low" : ""));
     if (next.error) return void (said.textContent = `This can't be drawn (${next.error}).`);
     answer = next;
-    const parsed = new DOMParser().parseFromString(answer.svg, "image/svg+xml").documentElement;
-    const svg = document.importNode(parsed, true);
-    shown.replaceWith(svg);
-    shown = svg;
-    said.textContent = `${answer.summary} (${(performance.now() - began).toFixed(1)} ms)`;
+    const parsed = document.importNode(new DOMParser().parseFromString(answer.svg, "image/svg+xml").documentElement, true);
+    for (const name of ["width", "height", "viewBox"]) svg.setAttribute(name, parsed.getAttribute(name));
+    while (svg.firstChild !== overlay) svg.firstChild.remove();
+    overlay.before(...parsed.childNodes);
+    fit();
     renewSteps(box);
-    for (const handle of answer.handles) place(handle);
-    for (const choice of answer.choices) choose(choice);
-    for (const slider of answer.sliders) slide(slider);
+    const { handles, points, choices, sliders, picture } = answer;
+    const byHand = points ? points.values.map((value, i) => (
+      { ...points, name: `${points.name} ${i + 1}`, label: `${points.label} ${i + 1}`, value, of: points, i })) : [];
+    const named = new Set([
+      ...renew(picture ? [{ ...picture, name: " pixels" }] : [], pixels),
+      ...renew(points ? [{ ...points, name: " paper" }] : [], paper),
+      ...renew([...handles, ...byHand], dot), ...renew(choices, choice), ...renew(sliders, slider)]);
+    for (const [name, control] of shown) if (!named.has(name)) {
+      control.parts.forEach((part) => part.remove());
+      shown.delete(name);
+    }
+    const speed = picture?.rays ? `, ${(picture.rays / answer.ms / 1000).toFixed(2)} million rays a second` : "";
+    said.textContent = `${answer.summary} (${answer.ms.toFixed(1)} ms${speed})`;
   };
-  const change = (name, value) => {
-    state.set(name, value);
+  const again = () => {
+    clearTimeout(resting);
+    resting = setTimeout(rest, live.rest);
     if (waits) return;
     waits = true;
     requestAnimationFrame(() => {
       waits = false;
-      draw();
-      history.replaceState(null, "", `#${encodeURI(address())}`);
+      draw(Boolean(answer.picture));
     });
   };
-  const move = (handle, x, y) => change(handle.name, [x, y].map((v) => Math.round(v * 100) / 100).join(","));
-
-  const place = (handle) => {
-    const [x, y] = handle.value, at = { cx: handle.zero[0] + handle.unit[0] * x, cy: handle.zero[1] + handle.unit[1] * y };
-    let group = controls.get(handle.name);
-    if (!group) {
-      group = svgElement("g", { tabindex: 0, role: "slider", "aria-label": handle.label }, overlay);
-      controls.set(handle.name, group);
-      svgElement("circle", { class: "reach", r: 16 }, group);
-      svgElement("circle", { class: "dot", r: 7 }, group);
-      group.addEventListener("pointerdown", (event) => group.setPointerCapture(event.pointerId));
-      group.addEventListener("pointermove", (event) => {
-        if (!group.hasPointerCapture(event.pointerId)) return;
-        const now = group.handle, point = new DOMPoint(event.clientX, event.clientY).matrixTransform(overlay.getScreenCTM().inverse());
-        move(now, (point.x - now.zero[0]) / now.unit[0], (point.y - now.zero[1]) / now.unit[1]);
-      });
-      group.addEventListener("keydown", (event) => {
-        const [right, up] = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [0, 0];
-        if (!right && !up) return;
-        event.preventDefault();
-        event.stopPropagation();
-        const by = event.shiftKey ? 1 : 0.1, [x0, y0] = group.handle.value;
-        move(group.handle, x0 + by * right, y0 + by * up);
-      });
-    }
-    group.handle = handle;
-    group.setAttribute("aria-valuetext", `${x}, ${y}`);
-    for (const circle of group.children) for (const [name, value] of Object.entries(at)) circle.setAttribute(name, value);
-  };
-  const labelled = (name, label, tag, properties) => {
-    const element = make(tag, properties, make("label", { textContent: `${label} ` }));
-    controls.set(name, element);
-    return element;
-  };
-  const choose = ({ name, label, names, chosen }) => {
-    let select = controls.get(name);
-    if (!select) {
-      select = labelled(name, label, "select", { onchange: () => change(name, select.value) });
-      for (const text of names) make("option", { value: text, textContent: text }, select);
-    }
-    select.selectedIndex = chosen;
-  };
-  const slide = ({ name, label, value, least, most, step }) => {
-    const input = controls.get(name) ??
-        labelled(name, label, "input", { type: "range", min: least, max: most, step, oninput: () => change(name, input.value) });
-    input.value = value;
+  const change = (name, value) => {
+    state.set(name, value);
+    again();
   };
 
-  said.setAttribute("aria-live", "polite");
-  make("button", { type: "button", textContent: "As in the book", onclick: () => {
+  // Units of the drawing to a pixel of the screen: what is touched keeps its size.
+  const fit = () => {
+    const { width } = svg.getBoundingClientRect();
+    overlay.style.setProperty("--unit", width ? svg.viewBox.baseVal.width / width : 1);
+  };
+  new ResizeObserver(fit).observe(svg);
+  const under = ({ clientX, clientY }, { zero, unit }) => {
+    const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg.getScreenCTM().inverse());
+    return [(x - zero[0]) / unit[0], (y - zero[1]) / unit[1]];
+  };
+  // So many decimals that a point may stand anywhere on the paper.
+  const decimals = ({ unit }) => Math.max(0, Math.ceil(Math.log10(2 * Math.abs(unit[0]))));
+  const rounded = (part, value) => value.map((v) => Number(v.toFixed(decimals(part)))).join(",");
+  const list = (points, values) => change(points.name, values.map((value) => rounded(points, value)).join(" "));
+  const moved = ({ part }, value) =>
+    part.of ? list(part.of, part.of.values.map((old, i) => (i === part.i ? value : old))) : change(part.name, rounded(part, value));
+
+  const dot = () => {
+    const group = drawn("g", { tabindex: 0, role: "slider", "aria-roledescription": "point", class: "live-dot" }, overlay);
+    const circles = [drawn("circle", { class: "reach" }, group), drawn("circle", { class: "dot" }, group)];
+    const control = { parts: [group], renew: (part) => {
+      control.part = part;
+      const [x, y] = part.value, { zero, unit } = part;
+      control.at = [zero[0] + unit[0] * x, zero[1] + unit[1] * y];
+      for (const circle of circles) ["cx", "cy"].forEach((name, i) => circle.setAttribute(name, control.at[i]));
+      group.setAttribute("aria-label", part.label);
+      group.setAttribute("aria-valuenow", x);
+      group.setAttribute("aria-valuetext", rounded(part, part.value).replace(",", ", "));
+    } };
+    group.control = control;
+    group.addEventListener("keydown", (event) => {
+      const { part } = control, by = (event.shiftKey ? 10 : 1) * 10 ** (1 - decimals(part));
+      const way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (way && !event.altKey && !event.ctrlKey && !event.metaKey)
+        moved(control, part.value.map((v, i) => v + by * way[i] * (i ? -Math.sign(part.unit[1]) : Math.sign(part.unit[0]))));
+      else if (/^(Delete|Backspace)$/.test(event.key) && part.of) list(part.of, part.of.values.filter((_, i) => i !== part.i));
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+    return control;
+  };
+  // Dragging. Of points that lie close together the nearest is taken, and it keeps its distance to the finger.
+  overlay.addEventListener("pointerdown", (event) => {
+    if (!event.target.closest(".live-dot") || event.button) return;
+    const [x, y] = under(event, { zero: [0, 0], unit: [1, 1] });
+    const away = ({ at }) => Math.hypot(at[0] - x, at[1] - y);
+    const group = [...overlay.querySelectorAll(".live-dot")].reduce((a, b) => (away(b.control) < away(a.control) ? b : a));
+    const { control } = group, start = under(event, control.part), from = control.part.value;
+    const move = (now) => {
+      const at = under(now, control.part);
+      moved(control, from.map((v, i) => v + at[i] - start[i]));
+    };
+    live.hold(event, group, move, () => {});
+  });
+  // Points by hand: a press on the paper.
+  const paper = () => {
+    const rect = drawn("rect", { class: "live-paper" });
+    overlay.prepend(rect);
+    const add = (points, value) => {
+      if (points.values.length < points.limit) list(points, [...points.values, value]);
+    };
+    const press = (textContent, onclick) => element("button", { type: "button", textContent, onclick }, buttons);
+    const control = { renew: (points) => {
+      control.points = points;
+      const { least, most, zero, unit } = points;
+      const [x, y] = [0, 1].map((i) => zero[i] + unit[i] * (unit[i] > 0 ? least : most));
+      const size = { x, y, width: Math.abs(unit[0]) * (most - least), height: Math.abs(unit[1]) * (most - least) };
+      for (const [name, value] of Object.entries(size)) rect.setAttribute(name, value);
+    } };
+    rect.addEventListener("click", (event) => add(control.points, under(event, control.points)));
+    control.parts = [rect,
+      press("Add a point", () => add(control.points, [0, 0].map(() => (control.points.least + control.points.most) / 2))),
+      press("Remove the last", () => list(control.points, control.points.values.slice(0, -1))),
+      press("Remove all", () => list(control.points, []))];
+    return control;
+  };
+  // Pixels: who drags them turns what they show, by the first two sliders.
+  const pixels = () => {
+    const frame = drawn("foreignObject", { class: "live-pixels" });
+    overlay.prepend(frame);
+    const canvas = element("canvas", {}, frame), control = { parts: [frame], canvas, renew: (picture) => {
+      const { corner: [x, y], size: [width, height] } = picture;
+      for (const [name, value] of Object.entries({ x, y, width, height })) frame.setAttribute(name, value);
+      [canvas.width, canvas.height] = [picture.width, picture.height];
+      canvas.getContext("2d").putImageData(new ImageData(picture.rgba, picture.width, picture.height), 0, 0);
+    } };
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button) return;
+      const { width, height } = canvas.getBoundingClientRect(), sliders = answer.sliders.slice(0, 2);
+      live.hold(event, canvas, (now) => {
+        const by = [(now.clientX - event.clientX) / width, (now.clientY - event.clientY) / height];
+        sliders.forEach(({ name, value, least, most }, i) => {
+          const next = value + by[i] * (most - least), span = most - least;
+          change(name, String(i ? Math.min(most, Math.max(least, next)) : least + (((next - least) % span) + span) % span));
+        });
+      }, (down) => {
+        held = down;
+        if (!down) again();
+      });
+    });
+    return control;
+  };
+  const labelled = ({ label }, make) => {
+    const box = element("label", { textContent: `${label} ` }, controls), control = make(box);
+    return { parts: [box], ...control };
+  };
+  const choice = (first) => labelled(first, (label) => {
+    const select = element("select", { onchange: () => change(first.name, select.value) }, label);
+    return { renew: ({ names, chosen }) => {
+      if ([...select.options].map((option) => option.value).join("\n") !== names.join("\n"))
+        select.replaceChildren(...names.map((text) => element("option", { value: text, textContent: text })));
+      select.selectedIndex = chosen;
+    } };
+  });
+  const slider = (first) => labelled(first, (label) => {
+    const input = element("input", { type: "range", oninput: () => change(first.name, input.value) }, label);
+    const number = element("span", {}, label);
+    return { renew: ({ value, least, most, step }) => {
+      Object.assign(input, { min: least, max: most, step });
+      input.value = value;
+      number.textContent = Number(value.toPrecision(6));
+    } };
+  });
+
+  element("button", { type: "button", textContent: "As in the book", onclick: () => {
     state.clear();
-    draw();
-    history.replaceState(null, "", `#${id}`);
-  } });
-  make("button", { type: "button", textContent: "Save as SVG", onclick: () => {
-    const link = make("a", { href: URL.createObjectURL(new Blob([answer.svg], { type: "image/svg+xml" })), download: `${id}.svg` }, null);
-    link.click();
-    URL.revokeObjectURL(link.href);
-  } });
+    again();
+  } }, buttons);
+  element("button", { type: "button", textContent: "Save as SVG", onclick: () => {
+    const { picture } = answer, image = picture && drawn("image", {
+      x: picture.corner[0], y: picture.corner[1], width: picture.size[0], height: picture.size[1],
+      href: shown.get(" pixels").canvas.toDataURL() });
+    const whole = image ? answer.svg.replace(/<\/svg>\s*$/, `${new XMLSerializer().serializeToString(image)}</svg>\n`) : answer.svg;
+    const href = URL.createObjectURL(new Blob([whole], { type: "image/svg+xml" }));
+    element("a", { href, download: `${id}.svg` }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 1000);
+  } }, buttons);
   box.classList.add("played");
-  box.append(overlay);
   box.before(bar);
-  draw();
+  box.renew = (to) => {
+    state = to;
+    again();
+  };
+  await draw();
 };
 
-// "#fig_07_17;ray=1,2" -> its id and state
+// While a pointer is down: `move` for each of its moves, `hold` with whether it is down.
+live.hold = (event, target, move, hold) => {
+  event.preventDefault();  // no text is selected
+  target.focus?.();
+  target.setPointerCapture(event.pointerId);
+  hold(true);
+  const end = () => {
+    for (const [name, listener] of Object.entries(listeners)) target.removeEventListener(name, listener);
+    hold(false);
+  };
+  const listeners = { pointermove: move, pointerup: end, pointercancel: end };
+  for (const [name, listener] of Object.entries(listeners)) target.addEventListener(name, listener);
+};
+
+// "#fig_07_17;ray=1,2" -> its id and state; nothing where it is no address of ours.
 live.address = () => {
-  const [id, ...parts] = decodeURI(location.hash.slice(1)).split(";");
-  return [id, new Map(parts.filter((part) => part.includes("=")).map((part) => part.split(/=(.*)/s).slice(0, 2)))];
+  try {
+    const [id, ...parts] = decodeURIComponent(location.hash.slice(1)).split(";");
+    return [id, new Map(parts.filter((part) => part.includes("=")).map((part) => part.split(/=(.*)/s).slice(0, 2)))];
+  } catch {
+    return ["", new Map()];
+  }
+};
+live.follow = () => {
+  const [id, state] = live.address(), box = [...document.querySelectorAll("[data-live]")].find((each) => each.dataset.live === id);
+  if (!box) return;
+  if (box.renew) box.renew(state);
+  else box.play(state);
+  box.scrollIntoView({ block: "center" });
 };
 
 document.addEventListener("DOMContentLoaded", () => {
-  const [asked, state] = live.address();
-  for (const box of document.querySelectorAll(".drawing.live")) {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.className = "play";
-    button.textContent = "Move it yourself";
-    const start = (from) => {
-      button.remove();
-      live.play(box, from);
+  for (const box of document.querySelectorAll("[data-live]")) {
+    const button = live.element("button", { type: "button", className: "live-play", textContent: "Move it yourself" });
+    box.play = async (state) => {
+      button.disabled = true;
+      try {
+        await live.play(box, state);
+        button.remove();
+      } catch (fault) {  // no module, or a browser that takes none
+        button.textContent = `This can't be played here (${fault.message})`;
+      }
     };
-    button.addEventListener("click", () => start(new Map()));
+    button.addEventListener("click", async () => {
+      await box.play(new Map());
+      box.previousElementSibling.querySelector?.("select, input, button")?.focus();
+    });
     box.before(button);
-    if (box.querySelector("svg").id === asked) start(state);
   }
+  live.follow();
+  window.addEventListener("hashchange", live.follow);
 });

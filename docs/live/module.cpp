@@ -1,12 +1,14 @@
 // What the page's script calls: a text goes in, a text comes out.
 #include "docs/live/live.hpp"
 
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 
 namespace {
 
-std::string request, answer;
+std::string request;
+space::live::Reply reply;
 
 }  // namespace
 
@@ -19,12 +21,16 @@ __attribute__((export_name("request_buffer"))) char* request_buffer(std::size_t 
 }
 /// Answers it; the number of bytes of the answer.
 __attribute__((export_name("answer_request"))) std::size_t answer_request() {
-    answer = space::live::answer_text(request);
-    return answer.size();
+    reply = space::live::reply_to(request);
+    return reply.text.size();
 }
 /// The answer, until the next request.
 __attribute__((export_name("answer_bytes"))) const char* answer_bytes() {
-    return answer.data();
+    return reply.text.data();
+}
+/// The pixels of its picture, four bytes each.
+__attribute__((export_name("picture_bytes"))) const std::uint8_t* picture_bytes() {
+    return reply.pixels.data();
 }
 
 // What an exception would have been ends the call: the script sees a trap, shows the drawing that

@@ -55,29 +55,29 @@ DrawnTree drawn(const Story& story) {
     return tree;
 }
 
-/// Turns what the walk met into steps.
+/// Turns what the walk met into steps. What came next, and what later, is as the walk has it:
+/// its margins decide where two boxes begin together, or where a ray runs along a side.
 class Script {
   public:
-    Script(const Story& story, const Ray2& ray) : story_(story), prepared_(ray, BoxMargins::none) {
-        const std::vector<Visit> visits = watched_walk(story, ray);
-        const WalkStep::Visit root = visit_of(0);
-        if (root.enter > root.leave) {
+    Script(const Story& story, const Ray2& ray)
+        : story_(story), prepared_(ray, BoxMargins::none), visits_(watched_walk(story, ray)) {
+        if (visits_.empty()) {
             add({.tells = "The ray misses the root's box, and so all that is in it."});
             return;
         }
-        waiting_.push_back(root);
+        waiting_.push_back(visit_of(0));
         add({.tells = fmt::format("A ray starts at the dot and looks for its nearest hit. It is in "
                                   "the root's box for {}.",
                                   written(waiting_.back())),
              .waiting = waiting_});
-        for (const Visit& visit : visits) {
-            take(visit.node);
-            if (story_.tree.nodes[visit.node].is_leaf())
-                leaf(visit);
+        for (std::size_t k = 0; k < visits_.size(); ++k) {
+            take(visits_[k].node);
+            if (story_.tree.nodes[visits_[k].node].is_leaf())
+                leaf(visits_[k]);
             else
-                inner(visit.node);
+                inner(k);
         }
-        sum_up(visits.size());
+        sum_up();
     }
     std::vector<WalkStep> steps = {};
 
@@ -92,20 +92,28 @@ class Script {
         waiting_.pop_back();
     }
 
-    void inner(std::uint32_t node) {
-        const std::uint32_t first = story_.tree.nodes[node].first;
+    bool is_visited_after(std::size_t k, std::uint32_t node) const {
+        return std::any_of(visits_.begin() + static_cast<std::ptrdiff_t>(k) + 1, visits_.end(),
+                           [&](const Visit& visit) { return visit.node == node; });
+    }
+
+    void inner(std::size_t k) {
+        const std::uint32_t node = visits_[k].node, first = story_.tree.nodes[node].first;
+        const std::uint32_t next = k + 1 < visits_.size() ? visits_[k + 1].node : 0;
+        const bool goes_on = next == first || next == first + 1;
         std::vector<WalkStep::Visit> met;
         std::vector<std::string> parts;
         for (const std::uint32_t child : {first, first + 1}) {
             const WalkStep::Visit part = visit_of(child);
-            const bool beyond = part.enter > nearest_;
-            if (part.enter <= part.leave && !beyond) met.push_back(part);
-            parts.push_back(plain_node_name(story_, child) + (part.enter > part.leave
-                                                                  ? " is not met"
-                                                              : beyond ? " begins beyond the hit"
-                                                                       : " for " + written(part)));
+            const bool touches = part.enter <= part.leave, beyond = part.enter > nearest_;
+            const bool is_met = is_visited_after(k, child) || (goes_on && touches && !beyond);
+            if (is_met) met.push_back(part);
+            parts.push_back(plain_node_name(story_, child) + (is_met ? " for " + written(part)
+                                                              : touches && beyond
+                                                                  ? " begins beyond the hit"
+                                                                  : " is not met"));
         }
-        if (met.size() == 2 && met[0].enter <= met[1].enter) std::swap(met[0], met[1]);
+        if (met.size() == 2 && next == first) std::swap(met[0], met[1]);
         waiting_.insert(waiting_.end(), met.begin(), met.end());
         WalkStep step{.tells = fmt::format("Node {}, {}: {}.", plain_node_name(story_, node),
                                            written(visit_of(node)), fmt::join(parts, ", ")),
@@ -135,12 +143,12 @@ class Script {
         add(std::move(step));
     }
 
-    void sum_up(std::size_t visited) {
+    void sum_up() {
         left_alone_.insert(left_alone_.end(), waiting_.begin(), waiting_.end());
-        add({.tells =
-                 fmt::format("{} of {} nodes were visited, and {} of {} segments tested.{}",
-                             visited, story_.tree.size(), tested_.size(), story_.segments.size(),
-                             left_alone_.empty() ? "" : " What still waited was left alone."),
+        add({.tells = fmt::format("{} of {} nodes were visited, and {} of {} segments tested.{}",
+                                  visits_.size(), story_.tree.size(), tested_.size(),
+                                  story_.segments.size(),
+                                  left_alone_.empty() ? "" : " What still waited was left alone."),
              .waiting = left_alone_,
              .tested = tested_});
     }
@@ -159,6 +167,7 @@ class Script {
 
     const Story& story_;
     BvhRay<2> prepared_;  ///< without margins: what is written has two places
+    std::vector<Visit> visits_;
     std::vector<WalkStep::Visit> waiting_, left_alone_;
     std::vector<std::size_t> tested_;
     double nearest_ = infinity;

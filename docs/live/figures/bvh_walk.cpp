@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -66,8 +68,11 @@ Answer bvh_walk(const State& state) {
                               : builder == 1 ? story<SweepBuilder>(segments)
                               : builder == 2 ? story<MedianBuilder>(segments)
                                              : story<MiddleBuilder>(segments);
-    Ray2 ray{.origin = Point2(from), .direction = Vector2(through - from)};
-    if (ray.direction == Vector2(0.0f)) ray.direction = {1.0f, 0.0f};
+    // A step along the axis to which the ray keeps is t = 1.
+    const Double2 way = through - from;
+    const double step = std::max(std::abs(way.x), std::abs(way.y));
+    const Ray2 ray{.origin = Point2(from),
+                   .direction = step > 0.0 ? Vector2(way / step) : Vector2(1.0f, 0.0f)};
     Svg drawing = ch07::drawn_walk(
         "A ray's walk through a tree of seven segments, step by step, with what waits", built, ray);
     double nearest = infinity;
