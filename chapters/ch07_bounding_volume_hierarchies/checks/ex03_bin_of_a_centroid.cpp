@@ -24,9 +24,11 @@ void check_in_order(std::vector<float> centroids, std::size_t bins) {
     std::size_t before = 0;
     for (const float centroid : centroids) {
         const std::size_t bin = bin_of(centroid, low, high, bins);
-        CAPTURE(Number{centroid}, Number{low}, Number{high}, bins, before);
-        REQUIRE(bin < bins);
-        REQUIRE(bin >= before);
+        if (bin >= bins || bin < before) {
+            CAPTURE(Number{centroid}, Number{low}, Number{high}, bins, before);
+            REQUIRE(bin < bins);
+            REQUIRE(bin >= before);
+        }
         before = bin;
     }
     if (low == high) return;
@@ -107,9 +109,11 @@ TEST_CASE("every boundary of whole numbers belongs to the upper bin") {
     for (int bins = 1; bins <= 128; ++bins)
         for (int width = 1; width <= 16; ++width)
             for (int k = 0; k < bins; ++k) {
+                const std::size_t bin =
+                    bin_of(float(k * width), 0, float(bins * width), std::size_t(bins));
+                if (bin == std::size_t(k)) continue;
                 CAPTURE(bins, width, k);
-                REQUIRE(bin_of(float(k * width), 0, float(bins * width), std::size_t(bins)) ==
-                        std::size_t(k));
+                REQUIRE(bin == std::size_t(k));
             }
 }
 
@@ -133,9 +137,10 @@ TEST_CASE("random whole numbers: the bin is the exact one") {
         if (low == high) continue;
         const std::int64_t bins = 1 + random.below(random.below(2) ? 32 : 1'024);
         const std::int64_t wanted = std::min(bins * (centroid - low) / (high - low), bins - 1);
+        const std::size_t bin = bin_of(float(centroid), float(low), float(high), std::size_t(bins));
+        if (bin == std::size_t(wanted)) continue;
         CAPTURE(low, centroid, high, bins);
-        REQUIRE(bin_of(float(centroid), float(low), float(high), std::size_t(bins)) ==
-                std::size_t(wanted));
+        REQUIRE(bin == std::size_t(wanted));
     }
 }
 
