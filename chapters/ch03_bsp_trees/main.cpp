@@ -101,12 +101,12 @@ int run(int argc, char** argv) {
     if (options.figure) return write_figures(this_chapter.figures, options);
     check_results_writable(options);
     const bool times = !options.small && !options.counts;
+    const bool all = !options.counts || !options.quick;
 
     Measurements measured;
+    if (all) measured.pictures = draw_pictures(options);
     measured.worst_known_share = worst_known_share();
-    measured.pictures = draw_pictures(options);
     print_methods(measured.methods = measure_methods(options.scene, options), times);
-    const bool all = !options.counts || !options.quick;
     if (all) print_scenes(measured.scenes = measure_scenes(options), times);
     print_crossings(measured.crossings = measure_crossings(options));
     if (all) print_grades(measured.grades = measured_once<measure_grades>(options), times);

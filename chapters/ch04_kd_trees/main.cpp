@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
     const bool all = !options.counts || !options.quick;
 
     Measurements measured;
-    print_pictures(measured.pictures = draw_pictures(options));
+    if (all) print_pictures(measured.pictures = draw_pictures(options));
     print_cures(measured.cures = measured_once<measure_cures>(options), times);
     print_trees(measured.trees = measured_once<measure_trees>(options), times);
     print_growth(measured.growth = measured_once<measure_growth>(options), times);

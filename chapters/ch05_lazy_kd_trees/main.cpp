@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
     const bool times = !options.small && !options.counts;
     const bool all = !options.counts || !options.quick;
 
-    draw_picture(options);
+    if (!options.counts) draw_picture(options);
     Measurements measured;
     print_views(measured.views = measured_once<measure_views>(options), times);
     print_reach(measured.reach = measured_once<measure_reach>(options), times);

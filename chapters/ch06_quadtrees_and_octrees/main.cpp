@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
     const bool times = !options.small && !options.counts;
     const bool all = !options.counts || !options.quick;
 
-    std::uint64_t wrong = draw_pictures(options);
+    std::uint64_t wrong = options.counts ? 0 : draw_pictures(options);
     Measurements measured;
     print_codes(measured.codes = measure_codes(options));
     print_segments(measured.segments = measure_segments(options));

@@ -89,7 +89,7 @@ int run(int argc, char** argv) {
     check_results_writable(options);
     const bool times = !options.small && !options.counts;
 
-    std::uint64_t wrong = draw_pictures(options);
+    std::uint64_t wrong = options.counts ? 0 : draw_pictures(options);
     const VolumeMeasurements volumes = measure_volumes(options);
     print_volumes(volumes, times);
     const TreeMeasurements measured = measure_all(options, times);

@@ -107,7 +107,7 @@ int run(int argc, char** argv) {
     check_results_writable(options);
     const bool times = !options.small && !options.counts;
 
-    light_one_scene(options);
+    if (!options.counts) light_one_scene(options);
     const SamplingMeasurements& sampling = measured_once<measure_sampling>(options);
     print_sampling(sampling, times);
     const DensityMeasurements density = measure_density(options);

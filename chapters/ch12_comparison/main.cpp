@@ -83,7 +83,7 @@ int run(int argc, char** argv) {
     if (options.figure) return write_figures(this_chapter.figures, options);
     check_results_writable(options);
 
-    std::uint64_t wrong = ask_all_on_one_scene(options);
+    std::uint64_t wrong = options.counts ? 0 : ask_all_on_one_scene(options);
     const bool times = !options.small && !options.counts;
     const Comparison& comparison = measured_once<measure_comparison>(options);
     print_comparison(comparison, times);

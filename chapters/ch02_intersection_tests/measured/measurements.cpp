@@ -6,7 +6,9 @@
 #include "common/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
+#include <vector>
 
 namespace space::ch02 {
 
@@ -45,9 +47,24 @@ Sizes sizes(Amount amount) {
     }
 }
 
+namespace {
+
+/// Whether of the counts only those are wanted that the text quotes.
+bool is_brief(const Options& options) {
+    return options.counts && options.quick;
+}
+
+}  // namespace
+
 void count_triangles(const Options& options, Measurements& measured) {
-    Progress progress("triangles: wrong decisions", triangle_inputs().size());
-    for (const TriangleInput& input : triangle_inputs()) {
+    std::vector<TriangleInput> inputs = triangle_inputs();
+    constexpr std::array in_the_text{"random", "near", "edges", "vertices", "uneven"};
+    if (is_brief(options))
+        std::erase_if(inputs, [&](const TriangleInput& input) {
+            return std::ranges::count(in_the_text, input.name) == 0;
+        });
+    Progress progress("triangles: wrong decisions", inputs.size());
+    for (const TriangleInput& input : inputs) {
         measured.triangles.push_back(
             triangle_accuracy(input, sizes(options.amount()).pairs, options.seed, options.threads));
         progress.step();
@@ -61,6 +78,7 @@ void count_signs(const Options& options, Measurements& measured) {
 }
 
 void count_leaks(const Options& options, Measurements& measured) {
+    if (is_brief(options)) return;
     const std::vector<int> shifts{0, 3, 6};
     Progress progress("triangles: leaks", shifts.size());
     for (const int shift : shifts) {
@@ -71,10 +89,18 @@ void count_leaks(const Options& options, Measurements& measured) {
 }
 
 void count_roots(const Options& options, Measurements& measured) {
-    Progress progress("square roots", root_forms().size());
-    for (const RootForm& form : root_forms()) {
-        measured.roots.push_back(root_accuracy(form, sizes(options.amount()).root_stride,
-                                               sizes(options.amount()).root_samples));
+    std::vector<RootForm> forms = root_forms();
+    constexpr std::array in_the_text{"Newton 2", "Newton 3", "Newton 4", "library"};
+    std::uint32_t samples = sizes(options.amount()).root_samples;
+    if (is_brief(options)) {
+        std::erase_if(forms, [&](const RootForm& form) {
+            return std::ranges::count(in_the_text, form.name) == 0;
+        });
+        samples = 1;  // of numbers beyond [1, 4)
+    }
+    Progress progress("square roots", forms.size());
+    for (const RootForm& form : forms) {
+        measured.roots.push_back(root_accuracy(form, sizes(options.amount()).root_stride, samples));
         progress.step();
     }
 }

@@ -153,14 +153,16 @@ namespace {
 
 void quote_pictures(const Measurements& measured, Numbers& numbers) {
     const Pictures& pictures = measured.pictures;
-    const double rays = double(pictures.rays);
-    numbers.count("pixels", pictures.pixels);
-    numbers.count("picture_tests", double(pictures.tests) / rays,
-                  fixed(double(pictures.tests) / rays, 0));
-    numbers.count("picture_naive_tests",
-                  static_cast<std::uint64_t>(double(pictures.naive_tests) / rays + 0.5));
-    numbers.count("picture_same_depth", pictures.same_depth);
-    numbers.count("picture_differ", pictures.other_pixels + pictures.painter_wrong);
+    if (pictures.pixels > 0) {
+        const double rays = double(pictures.rays);
+        numbers.count("pixels", pictures.pixels);
+        numbers.count("picture_tests", double(pictures.tests) / rays,
+                      fixed(double(pictures.tests) / rays, 0));
+        numbers.count("picture_naive_tests",
+                      static_cast<std::uint64_t>(double(pictures.naive_tests) / rays + 0.5));
+        numbers.count("picture_same_depth", pictures.same_depth);
+        numbers.count("picture_differ", pictures.other_pixels + pictures.painter_wrong);
+    }
     numbers.count_table("splitters", methods_table(measured.methods, false));
     if (measured.methods.trees.empty()) return;
     numbers.count("splitters_polygons", measured.methods.trees.front().polygons);

@@ -321,7 +321,7 @@ void quote_points(const std::vector<PointSet>& points, bool times, Numbers& numb
 Numbers quoted(const Measurements& measured, bool times) {
     Numbers numbers;
     const bool all = !measured.care.empty();
-    numbers.count_table("pictures", pictures_table(measured.pictures));
+    if (all) numbers.count_table("pictures", pictures_table(measured.pictures));
     quote_cures(measured.cures, times, numbers);
     quote_trees(measured.trees, all, numbers);
     quote_growth(measured.growth, all, times, numbers);
