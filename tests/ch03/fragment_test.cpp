@@ -27,7 +27,7 @@ bool is_chained(const Fragment<3>& fragment) {
 }
 
 template <int D>
-struct Scene {
+struct ToCut {
     std::vector<Simplex<D>> polygons;
     std::vector<SplitPlane<D>> planes;
 
@@ -98,7 +98,7 @@ TEST_CASE("axis planes have the larger coordinate in front, in every dimension")
 
 TEST_CASE("a segment is in front, behind, on or across a line") {
     const SplitPlane<2> line({{0, 0}, {1, 0}});  // the x axis: its left is above
-    Scene<2> scene{{{{0, 1}, {2, 3}},
+    ToCut<2> scene{{{{0, 1}, {2, 3}},
                     {{0, -1}, {2, -3}},
                     {{5, 0}, {-3, 0}},
                     {{0, -1}, {2, 3}},
@@ -118,7 +118,7 @@ TEST_CASE("a segment is in front, behind, on or across a line") {
 }
 
 TEST_CASE("a segment across a line is cut once, and its two parts keep its direction") {
-    Scene<2> scene{{{{0, -1}, {2, 3}}, {{2, 3}, {0, -1}}},
+    ToCut<2> scene{{{{0, -1}, {2, 3}}, {{2, 3}, {0, -1}}},
                    {SplitPlane<2>({{0, 0}, {1, 0}}), SplitPlane<2>({{0, 2}, {1, 2}})}};
     for (const Grade grade : grades) {
         const auto [front, back] = scene.split(grade, whole_polygon<2>(scene.polygons[0], 0));
@@ -169,7 +169,7 @@ TEST_CASE(
     };
     for (const Grade grade : grades)
         for (const Case& c : cases) {
-            const Scene<3> scene{{c.triangle}, {ground}};
+            const ToCut<3> scene{{c.triangle}, {ground}};
             const std::vector<int> sides = scene.sides(grade, whole_polygon<3>(c.triangle, 0));
             CHECK(sides == c.sides);
             CHECK(Cutter<3>::classify(sides) == c.side);
@@ -177,7 +177,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a triangle with one corner behind is cut into a triangle and a quadrangle") {
-    const Scene<3> scene{{{{0, 0, -2}, {4, 0, 2}, {0, 4, 2}}}, {ground}};
+    const ToCut<3> scene{{{{0, 0, -2}, {4, 0, 2}, {0, 4, 2}}}, {ground}};
     for (const Grade grade : grades) {
         const auto [front, back] = scene.split(grade, whole_polygon<3>(scene.polygons[0], 0));
         CHECK(points(front) == Points{{2, 0, 0}, {4, 0, 2}, {0, 4, 2}, {0, 2, 0}});
@@ -193,7 +193,7 @@ TEST_CASE("a triangle with one corner behind is cut into a triangle and a quadra
 
 TEST_CASE("a plane through a corner cuts a triangle into two triangles that share it") {
     // From front to back along the opposite edge, and from back to front.
-    const Scene<3> scene{{{{1, 1, 0}, {4, 0, 2}, {0, 4, -2}}, {{1, 1, 0}, {0, 4, -2}, {4, 0, 2}}},
+    const ToCut<3> scene{{{{1, 1, 0}, {4, 0, 2}, {0, 4, -2}}, {{1, 1, 0}, {0, 4, -2}, {4, 0, 2}}},
                          {ground}};
     for (const Grade grade : grades) {
         const auto [front, back] = scene.split(grade, whole_polygon<3>(scene.polygons[0], 0));
@@ -216,7 +216,7 @@ TEST_CASE("a corner where two splitting planes meet is known by both") {
     const SplitPlane<3> shelf = axis_plane<3>(1, 1.0f);
     const SplitPlane<3> diagonal(
         {{0, 1, 0}, {1, 2, 0}, {0, 1, 1}});  // through (0, 1), in front: below and right of it
-    const Scene<3> scene{{{{-4, 0, 0}, {4, 0, 0}, {-4, 8, 0}}}, {wall, shelf, diagonal}};
+    const ToCut<3> scene{{{{-4, 0, 0}, {4, 0, 0}, {-4, 8, 0}}}, {wall, shelf, diagonal}};
     for (const Grade grade : grades) {
         const auto [right, left] = scene.split(grade, whole_polygon<3>(scene.polygons[0], 0), 0);
         CHECK(points(right) == Points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
@@ -242,7 +242,7 @@ TEST_CASE(
     const float just = 0x1p-21f, beyond = 0x1p-19f;
     for (const float size : {0.25f, 1.0f, 4.0f}) {  // of what the plane goes through
         const SplitPlane<3> plane({{0, 0, 0}, {size, 0, 0}, {0, size, 0}});
-        const Scene<3> scene{{{{0, 0, just}, {1, 0, -just}, {0, 1, beyond}}}, {plane}};
+        const ToCut<3> scene{{{{0, 0, just}, {1, 0, -just}, {0, 1, beyond}}}, {plane}};
         const Fragment<3> fragment = whole_polygon<3>(scene.polygons[0], 0);
         for (const Grade grade : {Grade::thick_float, Grade::ordered_float, Grade::ordered_double})
             CHECK(scene.sides(grade, fragment) == std::vector<int>{0, 0, 1});
@@ -298,7 +298,7 @@ TEST_CASE("the exact grade keeps a sliver whose corners are the same in double")
     // between them.
     const SplitPlane<3> upright = axis_plane<3>(0, 1.0f);
     const SplitPlane<3> leaning({{1, 0, -0x1p-60f}, {1, 1, -0x1p-60f}, {1 + 0x1p-23f, 0, 1}});
-    const Scene<3> scene{{{{0, -1, 0}, {4, -1, 0}, {0, 3, 0}}}, {upright, leaning}};
+    const ToCut<3> scene{{{{0, -1, 0}, {4, -1, 0}, {0, 3, 0}}}, {upright, leaning}};
     const auto [right, left] = scene.split(Grade::exact, whole_polygon<3>(scene.polygons[0], 0), 0);
     CHECK(Cutter<3>::classify(scene.sides(Grade::exact, right, 1)) == PlaneSide::straddling);
 

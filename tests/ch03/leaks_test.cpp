@@ -12,7 +12,7 @@
 namespace space {
 namespace {
 
-constexpr int exact_rays = 150'000, inexact_rays = 100'000, slipped_rays = 25'000;
+constexpr int exact_rays = 60'000, inexact_rays = 100'000, slipped_rays = 25'000;
 
 /// A closed mesh, and perhaps triangles that cut it before its own do.
 struct Mesh {

@@ -13,8 +13,8 @@
 namespace space {
 namespace {
 
-constexpr Grade grades[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double,
-                            Grade::exact};
+constexpr Grade every_grade[] = {Grade::thick_float, Grade::ordered_float, Grade::ordered_double,
+                                 Grade::exact};
 
 /// The last triangle's plane splits all others; it lies off them.
 BspTree<3> cut_by_last(const std::vector<Triangle>& triangles, Grade grade) {
@@ -42,7 +42,7 @@ bool meets_at(const FragmentRays& rays, const Fragment<3>& piece, float x, float
 }  // namespace
 
 TEST_CASE("area is lost with a fragment that is missing, and won with one that is there twice") {
-    for (const Grade grade : grades) {
+    for (const Grade grade : every_grade) {
         const BspTree<3> whole = cut_by_last(cut_triangle, grade);
         CHECK(measure_tiling(whole, grade).area_error == 0.0);
         for (const auto& [corners, share] : {std::pair{3u, 4.5 / 8}, {4u, 3.5 / 8}}) {
@@ -71,7 +71,7 @@ TEST_CASE("an edge of two polygons that a plane cuts is one cut, and a crack whe
     const std::vector<Triangle> pair{{{0, 0, 0}, {0, 4, 0}, {-2, 1, 1}},
                                      {{0, 4, 0}, {0, 0, 0}, {2, 2, 1}},
                                      {{9, 1, -1}, {9, 1, 1}, {10, 1, 0}}};
-    for (const Grade grade : grades) {
+    for (const Grade grade : every_grade) {
         BspTree<3> tree = cut_by_last(pair, grade);
         const Tiling sound = measure_tiling(tree, grade);
         CHECK(sound.cuts == 1);
@@ -91,7 +91,7 @@ TEST_CASE("an edge of two polygons that a plane cuts is one cut, and a crack whe
 }
 
 TEST_CASE("a ray meets the fragment that it passes through, its border included, and no other") {
-    for (const Grade grade : grades) {
+    for (const Grade grade : every_grade) {
         const BspTree<3> tree = cut_by_last(cut_triangle, grade);
         const FragmentRays rays(tree, grade);
         const auto meets = [&](std::size_t corners, float x, float y) {

@@ -23,7 +23,7 @@ namespace {
 #ifdef BOOK_SANITIZED
 constexpr int queries_of_a_set = 200;
 #else
-constexpr int queries_of_a_set = 4'000;
+constexpr int queries_of_a_set = 1'500;
 #endif
 constexpr std::size_t points_of_a_set = 5'000;
 

@@ -24,7 +24,7 @@ using Straddlers = KdTreeConfig::Straddlers;
 #ifdef BOOK_SANITIZED
 constexpr int rays_each = 200, oracle_rays = 20, samples = 2'000;
 #else
-constexpr int rays_each = 6'000, oracle_rays = 200, samples = 300'000;
+constexpr int rays_each = 2'500, oracle_rays = 100, samples = 300'000;
 #endif
 
 /// Where planes cut cells, and what rays may do there.
@@ -167,7 +167,8 @@ std::vector<TestScene> walked_scenes() {
 
 void check_all(int rays, int by_oracle) {
     for (const TestScene& scene : walked_scenes()) check_scene(scene, rays, by_oracle);
-    for (const TestScene& scene : adversarial_scenes()) check_scene(scene, rays, by_oracle);
+    for (const TestScene& scene : some_of(adversarial_scenes()))
+        check_scene(scene, rays, by_oracle);
 }
 
 }  // namespace

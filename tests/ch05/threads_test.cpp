@@ -113,7 +113,7 @@ std::size_t wrong_answers(const auto& tree, const Questions& questions, unsigned
 }  // namespace
 
 TEST_CASE("2 to 8 threads with delays: the same tree and hits each time, one thread makes a node") {
-    const int runs = sized(1'000, 100);
+    const int runs = sized(400, 60);
     const Watchdog watchdog(300);
     const Questions questions(scenes::soup(40, 0.3f, 11), 16);
     int waited = 0;

@@ -4,6 +4,7 @@
 #include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,6 @@
 
 namespace space {
 namespace {
-
-Double2 random_pair(Pcg32& random) {
-    Double2 u;
-    u.x = random.uniform_double();
-    u.y = random.uniform_double();
-    return u;
-}
 
 TEST_CASE("cosine and sine of a part of a turn are within 2^-52 of the exact ones") {
     const int count = sized(200'000, 20'000);

@@ -19,6 +19,7 @@
 #include "chapters/ch11_sampling_and_caching/radiosity.hpp"
 #include "common/scenes/shapes.hpp"
 #include "tests/ch11/statistics.hpp"
+#include "tests/ch11/up.hpp"
 #include "tests/check.hpp"
 
 #include <glm/vector_relational.hpp>
@@ -39,7 +40,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int seeds = sized(100, 20);
-const Double3 up{0, 0, 1};
 
 struct Surface {
     Rectangle shape;

@@ -2,6 +2,7 @@
 
 #include "common/pcg32.hpp"
 #include "common/random.hpp"
+#include "tests/ch11/up.hpp"
 #include "tests/check.hpp"
 
 #include <array>
@@ -16,7 +17,6 @@ using namespace space;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-const Double3 up{0, 0, 1};
 
 /// A rectangle above z = 0 that looks down.
 std::array<Double3, 4> ceiling(double x0, double x1, double y0, double y1, double z) {

@@ -6,6 +6,7 @@
 #include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <array>
 #include <cmath>
@@ -16,7 +17,6 @@
 namespace space {
 namespace {
 
-const Double3 up{0, 0, 1};
 using Look = std::function<SeenLight(const Double3& from, const Double3& direction)>;
 
 IrradianceRecord gather(const Look& look, const HemisphereGrid& grid, const Double3& position = {},

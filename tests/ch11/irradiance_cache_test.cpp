@@ -4,6 +4,7 @@
 
 #include "common/random.hpp"
 #include "tests/catch.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -22,8 +23,6 @@ extern std::atomic<std::ptrdiff_t> allocations_left;  // tests/ch05/allocations.
 }
 
 namespace {
-
-const Double3 up{0, 0, 1};
 
 /// Anywhere in a cube of edge 2, of radii from 2^-6 to 2.
 std::vector<IrradianceRecord> random_records(std::size_t count, std::uint64_t seed) {

@@ -4,6 +4,7 @@
 
 #include "common/random.hpp"
 #include "tests/catch.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <cmath>
 #include <limits>
@@ -14,7 +15,6 @@
 namespace space {
 namespace {
 
-const Double3 up{0, 0, 1};
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 IrradianceRecord record_at(const Double3& position, double radius, const Double3& normal = up) {

@@ -7,6 +7,7 @@
 #include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,13 +38,6 @@ LitScene scene_of(const std::vector<EmittingTriangle>& triangles) {
         lit.emission.push_back(t.emission);
     }
     return lit;
-}
-
-Double2 random_pair(Pcg32& random) {
-    Double2 u;
-    u.x = random.uniform_double();
-    u.y = random.uniform_double();
-    return u;
 }
 
 /// Lights all around the origin, their fronts towards it but for one.

@@ -5,6 +5,7 @@
 #include "common/pcg32.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@
 
 namespace space {
 namespace {
-
-const Double3 up{0.0, 0.0, 1.0};
 
 Photon photon_at(const Point3& position, const Vector3& normal = {0.0f, 0.0f, 1.0f}) {
     return {.position = position, .normal = normal, .power = Double3(1.0)};

@@ -82,16 +82,16 @@ struct ColorMean {
     }
 };
 
-constexpr std::uint64_t seeds = 100;
-constexpr SamplePattern patterns[] = {SamplePattern::independent, SamplePattern::stratified,
-                                      SamplePattern::sobol};
+constexpr std::uint64_t traced_seeds = 100;
+constexpr SamplePattern all_patterns[] = {SamplePattern::independent, SamplePattern::stratified,
+                                          SamplePattern::sobol};
 
 }  // namespace
 
 TEST_CASE("every emitted photon is absorbed, leaves or is stopped") {
     for (const char* name : {"box", "wall", "ring", "mirror", "interior", "furnace"}) {
         const LitTree stage(name);
-        for (const auto pattern : patterns) {
+        for (const auto pattern : all_patterns) {
             const PhotonConfig config{.count = sized(5'000u, 500u), .pattern = pattern};
             for (const PhotonTrace& trace : {stage.photons(config), stage.aimed(config)}) {
                 const PhotonCounts& n = trace.counts;
@@ -186,9 +186,9 @@ TEST_CASE("in a furnace pi times the area arrives, in each colour") {
     double area = 0.0;
     for (const Triangle& triangle : stage.lit.triangles)
         area += 0.5 * glm::length(normal(triangle));
-    for (const auto pattern : patterns) {
+    for (const auto pattern : all_patterns) {
         ColorMean arrived, direct;
-        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        for (std::uint64_t seed = 1; seed <= traced_seeds; ++seed) {
             const PhotonTrace trace =
                 stage.photons({.count = sized(1'000u, 100u), .seed = seed, .pattern = pattern});
             arrived.add(power_of(trace, [](const Photon&) { return true; }));
@@ -212,7 +212,7 @@ TEST_CASE("as much light arrives at floor and walls as paths find there") {
                           {{1, 0, -1}, {0, 2, 0}, {0, 0, 2.5}, {-1, 0, 0}},
                           {{-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}}};
     std::array<ColorMean, std::size(walls)> photons, paths;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= traced_seeds; ++seed) {
         const PhotonTrace trace = stage.photons({.count = sized(1'000u, 100u), .seed = seed});
         for (std::size_t i = 0; i < std::size(walls); ++i)
             photons[i].add(power_of(trace, [&](const Photon& photon) {
@@ -240,7 +240,7 @@ TEST_CASE("as much light arrives at floor and walls as paths find there") {
 TEST_CASE("photons aimed at mirrors bring the caustic that photons bring by chance") {
     for (const char* name : {"ring", "mirror"}) {
         const LitTree stage(name);
-        for (const auto pattern : patterns) {
+        for (const auto pattern : all_patterns) {
             ColorMean chance, aimed;
             // Inside the ring, too, where it gathers.
             ColorMean chance_inside, aimed_inside;
@@ -248,7 +248,7 @@ TEST_CASE("photons aimed at mirrors bring the caustic that photons bring by chan
                 return is_caustic(photon) && glm::length(photon.position) < 0.4f;
             };
             std::size_t by_chance = 0, by_aim = 0, other = 0;
-            for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            for (std::uint64_t seed = 1; seed <= traced_seeds; ++seed) {
                 const PhotonConfig config{
                     .count = sized(2'000u, 200u), .seed = seed, .pattern = pattern};
                 const PhotonTrace a = stage.photons(config), b = stage.aimed(config);

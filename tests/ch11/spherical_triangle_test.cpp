@@ -3,6 +3,7 @@
 #include "common/random.hpp"
 #include "tests/catch.hpp"
 #include "tests/ch11/statistics.hpp"
+#include "tests/ch11/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,13 +53,6 @@ Double3 published_sample(const SphericalTriangle& t, const Double2& u) {
     const Double3 to = q * a + std::sqrt(std::max(0.0, 1.0 - q * q)) * beside(c, a);
     const double z = 1.0 - u.y * (1.0 - glm::dot(to, b));
     return z * b + std::sqrt(std::max(0.0, 1.0 - z * z)) * beside(to, b);
-}
-
-Double2 random_pair(Pcg32& random) {
-    Double2 u;
-    u.x = random.uniform_double();
-    u.y = random.uniform_double();
-    return u;
 }
 
 /// A triangle and the point that sees it.
