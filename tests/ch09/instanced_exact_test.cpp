@@ -119,7 +119,7 @@ void check_graph(const std::string& name, const SceneGraph& graph, int rays) {
 }  // namespace
 
 TEST_CASE("instanced answers are the flattened mesh's, bit for bit, however objects are placed") {
-    for (const auto& [name, graph] : test_graphs()) check_graph(name, graph, sized(4000, 150));
+    for (const auto& [name, graph] : test_graphs()) check_graph(name, graph, sized(1'500, 150));
 }
 
 // By hand, some minutes: ch09.instanced_exact "[.big]".
@@ -165,7 +165,7 @@ TEST_CASE("a mesh at the ends of what floats hold, brought to a common size") {
                                                 return composed(rotated(random),
                                                                 scaled(Double3(1.0 / size)));
                                             })),
-                    sized(2000, 100));
+                    sized(800, 100));
         check_graph("a scene of size " + std::to_string(size),
                     two_levels(scenes::soup(60, 0.3f, 5),
                                copies(0, 3,
@@ -173,7 +173,7 @@ TEST_CASE("a mesh at the ends of what floats hold, brought to a common size") {
                                           return composed(rotated(random),
                                                           scaled(Double3(0.5 * double{size})));
                                       })),
-                    sized(2000, 100));
+                    sized(800, 100));
     }
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("a path of matrices along which local rays leave even the doubles lose
         for (std::uint32_t level = 0; level < 7; ++level)
             objects.push_back({.name = "group", .instances = {{scaled(size), level}}});
         check_graph("flat along axis " + std::to_string(axis), {std::move(objects), 7},
-                    sized(2000, 100));
+                    sized(800, 100));
     }
 }
 

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -93,9 +94,15 @@ struct SuiteReport {
     std::string text() const;
 };
 
+/// At edges and vertices, per scene; by hand more, as in   SUITE_RAYS=10000 build/release/tests/...
+inline int aimed_rays_of_a_scene() {
+    const char* asked = std::getenv("SUITE_RAYS");
+    return asked ? std::atoi(asked) : sized(2'500, 120);
+}
+
 struct SuiteOptions {
-    int aimed_rays = sized(10'000, 120);  ///< at edges and vertices, per scene
-    int other_rays = sized(400, 12);      ///< of each other kind, per scene
+    int aimed_rays = aimed_rays_of_a_scene();
+    int other_rays = sized(400, 12);  ///< of each other kind, per scene
     /// About so many per scene whose naive answers the exact oracle sees.
     int exact_rays = sized(100, 8);
     unsigned patience =
@@ -106,12 +113,13 @@ struct SuiteOptions {
     bool in_child = sized(true, false);
     std::vector<TestScene> scenes = adversarial_scenes();
 
-    /// A quarter of the rays, and no child process.
+    /// A quarter of the rays, and no child process. Sanitized: of every third scene.
     SuiteOptions fewer() const {
         SuiteOptions some = *this;
         some.aimed_rays /= 4;
         some.other_rays /= 4;
         some.in_child = false;
+        some.scenes = some_of(scenes);
         return some;
     }
 };

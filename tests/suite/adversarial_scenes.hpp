@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -291,6 +292,18 @@ inline std::vector<TestScene> adversarial_scenes() {
         add("one spans all", std::move(triangles));
     }
     return all;
+}
+
+/// For tests that go through them many times: sanitized, every third.
+inline std::vector<TestScene> some_of(const std::vector<TestScene>& all) {
+#ifdef BOOK_SANITIZED
+    constexpr std::size_t step = 3;
+#else
+    constexpr std::size_t step = 1;
+#endif
+    std::vector<TestScene> some;
+    for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+    return some;
 }
 
 }  // namespace space

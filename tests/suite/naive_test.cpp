@@ -14,7 +14,7 @@
 namespace space {
 namespace {
 
-constexpr int random_rays = 20'000, aimed_rays = 10'000, mesh_rays = 600, exact_rays = 1'000;
+constexpr int random_rays = 20'000, aimed_rays = 2'500, mesh_rays = 600, exact_rays = 1'000;
 
 /// As many as are worth starting for the oracle, which is slow.
 const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
