@@ -170,6 +170,8 @@ live.play = async (box, state) => {
     };
     live.hold(event, group, move, () => {});
   });
+  // A finger on a point moves the point and not the page: parts of a drawing know no touch-action.
+  overlay.addEventListener("touchstart", (event) => event.target.closest(".live-dot") && event.preventDefault(), { passive: false });
   // Points by hand: a press on the paper.
   const paper = () => {
     const rect = drawn("rect", { class: "live-paper" });

@@ -32,9 +32,11 @@ helpers = """
         const { left, top, width, height } = element.getBoundingClientRect();
         return [left + width / 2, top + height / 2];
     };
+    window.middle = () => [0, 1].map((i) => dots().reduce((sum, dot) => sum + centre(dot)[i], 0) / dots().length);
     // The drawing without what the page lays over it.
-    window.picture = () => [...svg().children].filter((child) => !child.matches(".live-overlay")).map((child) => child.outerHTML).join("\\n") +
-        (svg().querySelector("canvas")?.toDataURL() ?? "");
+    window.parts = () => [...svg().children].filter((child) => !child.matches(".live-overlay"));
+    window.pixels = () => svg().querySelector("canvas")?.toDataURL() ?? "";
+    window.picture = () => parts().map((child) => child.outerHTML).join() + pixels();
     window.settled = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
     // A seeded generator (mulberry32), so that a fault comes again.
     window.generator = (seed) => () => {
@@ -175,7 +177,7 @@ def play(name):
     count = chromium.run("return dots().length")
     for k in sorted({0, count // 2, count - 1} if count else ()):
         at = chromium.run(f"return centre(dots()[{k}].lastElementChild)")
-        aim = chromium.run("return centre(svg())")  # towards the middle: there is room
+        aim = chromium.run("return middle()")  # there is room
         way = [40 if aim[0] > at[0] else -40, 28 if aim[1] > at[1] else -28]
         expect_change(name, f"dragging point {k}", lambda: drag(at, way))
         now = chromium.run(f"return centre(dots()[{k}].lastElementChild)")
@@ -239,7 +241,7 @@ def touch_it(name):
         reach = chromium.run("return dots()[0].getBoundingClientRect().width")
         if reach < 43.5:
             fault(name, f"a finger has {reach:.0f} pixels to meet a point")
-        at, aim = chromium.run("return [centre(dots()[0].lastElementChild), centre(svg())]")
+        at, aim = chromium.run("return [centre(dots()[0].lastElementChild), middle()]")
         # What lies under the neighbour's finger may be nearer: the page must stand still all the same.
         if 0 < at[0] < 390:
             expect_change(name, "a finger", lambda: drag(at, [30 if aim[0] > at[0] else -30, 30 if aim[1] > at[1] else -30], True),
