@@ -57,8 +57,8 @@ live.play = async (box, state) => {
 
   const bar = element("div", { className: "live-bar", role: "group" }), controls = element("div", { className: "live-controls" }, bar);
   bar.setAttribute("aria-label", "What may be changed in the figure");
-  const buttons = element("div", { className: "live-controls" }, bar), said = element("p", { className: "live-said" }, bar);
-  const told = element("p", { className: "live-told", role: "status" }, bar);
+  const buttons = element("div", { className: "live-controls" }, bar), told = element("p", { className: "live-told", role: "status" }, bar);
+  const said = element("p", { className: "live-said" });  // below: its lines don't move what is dragged
   // Over the drawing, whose parts are drawn anew: points to drag, and pixels.
   const overlay = drawn("g", { class: "live-overlay" }, svg), shown = new Map();
   let answer = null, held = false, waits = false, resting = 0;
@@ -257,6 +257,9 @@ live.play = async (box, state) => {
   } }, buttons);
   box.classList.add("played");
   box.before(bar);
+  let last = box;
+  while (last.nextElementSibling?.matches(".step-bar, ol.steps")) last = last.nextElementSibling;
+  last.after(said);
   box.renew = (to) => {
     state = to;
     again();

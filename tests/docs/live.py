@@ -27,6 +27,7 @@ helpers = """
     window.box = document.querySelector('[data-live="ID"]');
     window.svg = () => box.querySelector("svg.book-figure");
     window.bar = () => box.previousElementSibling;
+    window.said = () => box.parentElement.querySelector(".live-said").textContent;
     window.dots = () => [...svg().querySelectorAll(".live-dot")];
     window.centre = (element) => {
         const { left, top, width, height } = element.getBoundingClientRect();
@@ -148,7 +149,7 @@ def expect_change(name, how, act, kept=None):
         fault(name, f"{how} changes nothing")
     if kept and chromium.run(kept) != stays:
         fault(name, f"{how} also moves the page")
-    if told := chromium.run("return bar().querySelector('.live-said').textContent.match(/can't be drawn.*/)?.[0]"):
+    if told := chromium.run("return said().match(/can't be drawn.*/)?.[0]"):
         fault(name, f"{how}: {told}")
 
 
@@ -157,7 +158,7 @@ def look_at_start(name):
     open_figure(name, 1280, "light")
     still = shot()
     chromium.run("box.previousElementSibling.click()")
-    if not chromium.wait("box.classList.contains('played') && bar().querySelector('.live-said').textContent"):
+    if not chromium.wait("box.classList.contains('played') && said()"):
         return fault(name, "is not played by its button")
     file = figures / f"{name}.svg"
     if not file.exists():
