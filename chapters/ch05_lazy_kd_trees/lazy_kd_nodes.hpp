@@ -181,7 +181,7 @@ class LazyKdNodes {
     using Task = typename Splitter::Task;
 
     /// A task, and where its node's children will be.
-    struct Waiting {
+    struct alignas(8) Waiting {
         Task task = {};
         std::uint32_t below = 0;  ///< 0: not known yet
     };
