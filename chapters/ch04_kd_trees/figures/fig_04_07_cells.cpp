@@ -2,7 +2,6 @@
 
 #include "chapters/ch04_kd_trees/figures.hpp"
 #include "chapters/ch04_kd_trees/figures/recorded_build.hpp"
-#include "chapters/ch04_kd_trees/sah_sweep.hpp"
 #include "common/random.hpp"
 
 #include <fmt/format.h>
@@ -34,16 +33,6 @@ std::vector<Segment> room_with_rings() {
     add_ring({8.6, 3.1}, 0.5, 12);
     add_ring({4.4, 5.2}, 0.4, 10);
     return segments;
-}
-
-/// What a random ray through the tree costs, by the perimeters of its cells.
-double expected_cost(const Story& story) {
-    const SahCosts costs;
-    double cost = 0.0;
-    for (const Turn& turn : story.turns)
-        cost += turn.cell.half_area() *
-                (turn.split ? costs.traversal : costs.intersection * double(turn.set.size()));
-    return cost / story.tree.box.half_area();
 }
 
 void draw_panel(Svg& svg, const Story& story, const char* name, double left) {

@@ -52,16 +52,32 @@ Story watched_build(std::span<const Segment> segments, const KdTreeConfig& confi
                                Double2(segment.a), Double2(segment.b)});
     BuildWatcher watcher(story.turns);
     story.tree = KdBuilder<2>::build(story.segments, config, watcher);
+    story.config = config;
+    story.config.planned = {};
     return story;
 }
 
+double expected_cost(const Story& story) {
+    const SahCosts costs;
+    double cost = 0.0;
+    for (const Turn& turn : story.turns)
+        cost += turn.cell.half_area() *
+                (turn.split ? costs.traversal : costs.intersection * double(turn.set.size()));
+    return cost / story.tree.box.half_area();
+}
+
+std::span<const KdSplit> heinonen_planes() {
+    static constexpr KdSplit planes[] = {{0, 8.0f}, {1, 11.5f},  {0, 4.0f},
+                                         {1, 6.5f}, {0, 11.25f}, {0, 12.5f}};
+    return planes;
+}
+
 Story heinonen_story() {
-    // q; on its negative side u and v; on its positive side r, then t below it and s above it.
-    static constexpr KdSplit planned[] = {{0, 8.0f}, {1, 11.5f},  {0, 4.0f},
-                                          {1, 6.5f}, {0, 11.25f}, {0, 12.5f}};
-    return watched_build(
+    Story story = watched_build(
         heinonen_segments(),
-        {.rule = KdTreeConfig::Rule::middle, .max_leaf_size = 1, .planned = planned});
+        {.rule = KdTreeConfig::Rule::middle, .max_leaf_size = 1, .planned = heinonen_planes()});
+    story.plane_names = "quvrts";
+    return story;
 }
 
 std::string heinonen_plane_name(const Story& story, std::uint32_t node) {
@@ -70,7 +86,7 @@ std::string heinonen_plane_name(const Story& story, std::uint32_t node) {
         if (turn.node == node) break;
         inner += turn.split.has_value();
     }
-    return std::string(1, std::string_view("quvrts")[inner]);
+    return std::string(1, story.plane_names[inner]);
 }
 
 std::vector<Double2> layout_of(const Story& story) {

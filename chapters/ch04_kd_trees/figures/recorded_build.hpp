@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Story {
     std::vector<NamedSegment> named;
     KdNodes<2> tree;
     std::vector<Turn> turns;
+    KdTreeConfig config = {};           ///< without its planned planes
+    std::string_view plane_names = {};  ///< one letter for each inner node's; none: they have none
 
     const Turn& turn_of(std::uint32_t node) const;
 };
@@ -39,6 +42,13 @@ struct Story {
 /// Builds the tree and watches. Segments are called A, B, C ..
 Story watched_build(std::span<const Segment> segments, const KdTreeConfig& config);
 
+/// What a random ray through the tree costs, by the perimeters of its cells; not a number where
+/// all of them are 0.
+double expected_cost(const Story& story);
+
+/// The planes that Heinonen16 draws: q; on its negative side u and v; on its positive side r, then
+/// t below it and s above it.
+std::span<const KdSplit> heinonen_planes();
 /// The segments A .. G of Heinonen16 with the planes that the thesis draws, and their names there.
 Story heinonen_story();
 /// "q" for the first inner node of heinonen_story().turns, and so on as in the thesis.
