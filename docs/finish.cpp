@@ -71,19 +71,24 @@ std::string list_of_steps(std::string_view drawing) {
 
 }  // namespace
 
+std::string whole_drawing(const std::filesystem::path& file) {
+    const std::string drawing = svg_element(file);
+    return "<div class=\"drawing\">" + drawing + "</div>\n" + list_of_steps(drawing);
+}
+
 std::string inline_drawings(const std::string& page, const std::filesystem::path& folder) {
     std::set<std::string> ids;
     return replace_between(
         page, "<object type=\"image/svg+xml\"", "</object>", [&](std::string_view object) {
             const std::filesystem::path file = folder / attribute(object, "data");
-            const std::string drawing = svg_element(file);
+            std::string drawing = whole_drawing(file);
             std::string_view rest = drawing;
             for (std::size_t at; (at = rest.find(" id=\"")) != rest.npos;
                  rest.remove_prefix(at + 5))
                 if (const std::string id = attribute(rest.substr(at), "id"); !ids.insert(id).second)
                     throw input_error(fmt::format(
                         "{}: the page already has an element with the id {}", file.string(), id));
-            return "<div class=\"drawing\">" + drawing + "</div>\n" + list_of_steps(drawing);
+            return drawing;
         });
 }
 

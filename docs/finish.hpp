@@ -9,9 +9,12 @@
 
 namespace space::docs {
 
-/// Puts the SVG files that the page shows into the page itself, where the page's colours reach
-/// them; after one with steps (Svg::begin_step) comes the list of what they tell, which book.js
-/// makes into a step-through.
+/// An SVG file as a part of a page, whose colours reach it there; after one with steps
+/// (Svg::begin_step) comes the list of what they tell, which steps.js makes into a step-through.
+/// @throws Error (bad_input) where the picture is missing
+std::string whole_drawing(const std::filesystem::path& file);
+
+/// Puts the SVG files that the page shows into the page itself.
 /// @throws Error (bad_input) where a picture is missing or two pictures of the page share an
 /// element's id
 std::string inline_drawings(const std::string& page, const std::filesystem::path& folder);

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,12 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A figure of the list that CMake writes.
-struct Figure {
-    std::string id, chapter, kind, caption;
-    fs::path file;  ///< the newest picture of it; empty where there is none
-};
-
 /// An exercise as the head of its stub describes it.
 struct Exercise {
     std::string chapter, name;  ///< "ch01_naive_ray_tracing", "ex02_shadow_test"
@@ -46,51 +39,10 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-const char* extension_of(const Figure& figure) {
-    return figure.kind == "rendering" ? "png" : "svg";
-}
-
-/// "3.4", as the text has it and ./book figures takes it.
-std::string number_of(const Figure& figure) {
-    return fmt::format("{}.{}", std::stoi(figure.id.substr(4, 2)), std::stoi(figure.id.substr(7)));
-}
-
 /// What stands in place of a figure whose file is not there.
 std::string absent(const Figure& figure) {
     return fmt::format("<b>Figure {} is not here</b>: `./book run {}` makes it.", number_of(figure),
                        std::stoi(figure.id.substr(4, 2)));
-}
-
-/// Figures of a folder named chNN: the reader's own run where it is newer than what is committed.
-fs::path newest_figure(const Places& places, const Figure& figure) {
-    const std::string name = fmt::format("{}.{}", figure.id, extension_of(figure));
-    const fs::path own = places.runs / figure.chapter.substr(0, 4) / name;
-    for (const fs::path& committed :
-         {places.root / "figures" / name, places.root / "figures/measured" / name})
-        if (exists(committed))
-            return exists(own) && last_write_time(own) > last_write_time(committed) ? own
-                                                                                    : committed;
-    return exists(own) ? own : fs::path{};
-}
-
-std::vector<Figure> read_figures(const Places& places) {
-    const fs::path list = places.configured / "figures.json";
-    std::vector<Figure> figures;
-    try {
-        for (const auto& entry : nlohmann::json::parse(read_file(list))) {
-            Figure figure{.id = entry.at("id"),
-                          .chapter = entry.at("chapter"),
-                          .kind = entry.at("kind"),
-                          .caption = entry.at("caption"),
-                          .file = {}};
-            figure.file = newest_figure(places, figure);
-            figures.push_back(std::move(figure));
-        }
-    } catch (const nlohmann::json::exception& fault) {
-        throw input_error(fmt::format("{}: {}", list.string(), fault.what()));
-    }
-    std::ranges::sort(figures, {}, &Figure::id);
-    return figures;
 }
 
 Exercise read_exercise(const Places& places, const std::string& chapter, const std::string& name) {
@@ -268,7 +220,12 @@ std::string figures_page(const std::vector<Chapter>& chapters, const std::vector
         "1.2 1.3\n    ./book figures 1.2 --dark\n\n"
         "A drawing is an SVG file that follows light and dark pages; with `--dark` or `--light` "
         "its "
-        "colours are fixed, for slide programs. A chart comes with its data.\n\n";
+        "colours are fixed, for slide programs. A chart comes with its data.\n\n"
+        "For the lecture room all figures of a chapter, or some of them, are slides:\n\n"
+        "    ./book figures --slides 7\n    ./book figures --slides 3.13 7.17\n\n"
+        "makes a web page that needs no other file and no network. Arrow keys, clicks and "
+        "fingers lead through a figure's steps, then to the next figure; its first page, the "
+        "outline, names the other keys; on paper each figure has a sheet.\n\n";
     for (const Chapter& chapter : chapters) {
         if (std::ranges::count(figures, chapter.folder, &Figure::chapter) == 0) continue;
         text += fmt::format("\\section figures_{} Chapter {}: {}\n\n", chapter.folder,

@@ -2,6 +2,7 @@
 /// The pages that nobody writes by hand: chapter table, exercises, figures, claims, and the menu.
 #pragma once
 
+#include "docs/figures.hpp"
 #include "docs/ledger.hpp"
 
 #include <filesystem>
@@ -9,14 +10,6 @@
 #include <vector>
 
 namespace space::docs {
-
-/// Where things are.
-struct Places {
-    std::filesystem::path root;        ///< the project
-    std::filesystem::path configured;  ///< the build directory, with figures.json and exercises.txt
-    std::filesystem::path runs;        ///< what ./book run wrote, chNN/..., if it did
-    std::filesystem::path pages;       ///< where the generated pages go
-};
 
 /// Writes *.dox, texts/, layout.xml and images/ into places.pages.
 /// @throws Error (bad_input) for a malformed list, exercise or results file, (bad_output)

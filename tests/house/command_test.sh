@@ -59,6 +59,10 @@ ends 2 'figure 9.99: there is none; there are: 1.1 ' figures 3.4 9.99
 ends 2 'figure 3_: there is none' figures 3_
 ends 2 'not both' figures --dark --light
 ends 2 'follow the reader' figures --dark --update
+ends 2 'chapter 99: there is none; there are: 1' figures --slides 99
+ends 2 'figure 9.99: there is none; there are: 1.1 ' figures 7 --slides 9.99
+ends 2 'figure 7: there is none; there are: 1.1 ' figures 7
+ends 2 'makes none to --update' figures --slides --update
 ends 2 'takes no arguments' print 1
 ends 0 'g\+\+ ' doctor
 
