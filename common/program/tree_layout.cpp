@@ -1,5 +1,7 @@
 #include "common/program/tree_layout.hpp"
 
+#include <algorithm>
+
 namespace space {
 
 std::vector<Double2> tree_layout(const std::vector<std::vector<std::size_t>>& children) {
@@ -14,6 +16,15 @@ std::vector<Double2> tree_layout(const std::vector<std::vector<std::size_t>>& ch
     };
     if (!children.empty()) place(place, 0, 0.0);
     return places;
+}
+
+TreePaper::TreePaper(double leaves, double levels)
+    : slot(306 / std::max(leaves, 1.0)),
+      level(296 / std::max(levels, 1.0)),
+      shrink(std::min({1.0, slot / 34, level / 48})) {}
+
+Point2 TreePaper::operator()(const Double2& place) const {
+    return at(362 + slot * place.x, 32 + level * place.y);
 }
 
 }  // namespace space

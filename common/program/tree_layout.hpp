@@ -2,7 +2,7 @@
 /// Where the nodes of a drawn tree stand.
 #pragma once
 
-#include "common/geometry.hpp"
+#include "common/program/svg.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -12,5 +12,15 @@ namespace space {
 /// x in slots from the left, one for each leaf; y in levels from the root. The root is node 0;
 /// children[i] are those of node i from left to right, and a node stands over their middle.
 std::vector<Double2> tree_layout(const std::vector<std::vector<std::size_t>>& children);
+
+/// Where a layout stands on the paper of a step-through, right of the plane.
+struct TreePaper {
+    /// `levels` is the deepest one's y.
+    TreePaper(double leaves, double levels);
+    Point2 operator()(const Double2& place) const;
+
+    double slot, level;  ///< in drawing units
+    double shrink;       ///< of the nodes, where they would touch: at most 1
+};
 
 }  // namespace space

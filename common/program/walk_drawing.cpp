@@ -35,11 +35,13 @@ class WalkPaper {
           exit_(exit_of(ray, tree.size)) {
         std::vector<std::vector<std::size_t>> children;
         for (const DrawnTree::Node& node : tree.nodes) children.push_back(node.children);
-        for (const Double2& place : tree_layout(children)) {
-            places_.push_back(place);
-            levels_ = std::max(levels_, place.y);
-            leaves_ = std::max(leaves_, place.x + 0.5);
+        places_ = tree_layout(children);
+        double levels = 0, leaves = 0;
+        for (const Double2& place : places_) {
+            levels = std::max(levels, place.y);
+            leaves = std::max(leaves, place.x + 0.5);
         }
+        tree_paper_ = TreePaper(leaves, levels);
         for (const WalkStep& step : steps) rows_ = std::max(rows_, 1 + step.waiting.size());
     }
 
@@ -60,15 +62,12 @@ class WalkPaper {
     void draw_node(Svg& svg, std::size_t i, Ink ink) const;
     void draw_bar(Svg& svg, std::size_t place, const WalkStep::Visit& visit, Ink ink) const;
 
-    Point2 place(std::size_t node) const {
-        return at(362 + 306 / leaves_ * places_[node].x,
-                  32 + 296 / std::max(levels_, 1.0) * places_[node].y);
-    }
+    Point2 place(std::size_t node) const { return tree_paper_(places_[node]); }
     Point2 on_ray(double t) const {
         return view_(Double2(ray_.origin) + std::min(t, exit_) * Double2(ray_.direction));
     }
     Point2 on_axis(double t, double y) const {
-        return at(56 + 430 / exit_ * std::min(t, exit_), y);
+        return at(exit_ > 0.0 ? 56 + 430 / exit_ * std::min(t, exit_) : 56, y);
     }
     bool waits(std::size_t k, std::size_t node) const {
         return std::ranges::find(steps_[k].waiting, node, &WalkStep::Visit::node) !=
@@ -91,7 +90,8 @@ class WalkPaper {
     const BasicRay<2>& ray_;
     const std::vector<WalkStep>& steps_;
     PlaneView view_;
-    double exit_, levels_ = 0, leaves_ = 0;
+    double exit_;  ///< 0 where the ray leaves the square at once
+    TreePaper tree_paper_{0, 0};
     std::size_t rows_ = 1;
     std::vector<Double2> places_;
 };
@@ -145,7 +145,8 @@ void WalkPaper::draw_ray(Svg& svg, std::size_t k) const {
     const Double2 origin(ray_.origin), way(ray_.direction);
     if (step.in_hand) {
         const double leave = std::min(step.in_hand->leave, exit_);
-        draw_segment(svg, view_, origin + step.in_hand->enter * way, origin + leave * way,
+        const double enter = std::min(step.in_hand->enter, exit_);
+        draw_segment(svg, view_, origin + enter * way, origin + leave * way,
                      {.stroke = {}, .fill = Ink::green});
     }
     for (const double t : step.crossings)
@@ -176,18 +177,20 @@ void WalkPaper::draw_tree(Svg& svg) const {
 void WalkPaper::draw_node(Svg& svg, std::size_t i, Ink ink) const {
     const DrawnTree::Node& node = tree_.nodes[i];
     const Style style{.stroke = ink, .fill = Ink::paper};
+    const double shrink = tree_paper_.shrink;
     if (node.children.empty()) {
         const auto marks = std::ranges::count_if(node.name, [](char c) {
             return std::string_view("*_{}").find(c) != std::string_view::npos;
         });
         const auto letters = static_cast<double>(node.name.size()) - static_cast<double>(marks);
         const bool has_subscript = node.name.find('_') != std::string::npos;
-        const double half = std::max(14.0, (has_subscript ? 7.0 : 9.0) * letters);
-        svg.rect(moved(place(i), -half, -14), at(2 * half, 28), style);
+        const double half = shrink * std::max(14.0, (has_subscript ? 7.0 : 9.0) * letters);
+        svg.rect(moved(place(i), -half, -14 * shrink), at(2 * half, 28 * shrink), style);
     } else {
-        svg.circle(place(i), 20, style);
+        svg.circle(place(i), 20 * shrink, style);
     }
-    if (!node.name.empty()) svg.text(moved(place(i), 0, 8), node.name, {.ink = ink, .size = 24});
+    if (!node.name.empty())
+        svg.text(moved(place(i), 0, 8 * shrink), node.name, {.ink = ink, .size = 24 * shrink});
 }
 
 void WalkPaper::draw_bar(Svg& svg, std::size_t place, const WalkStep::Visit& visit, Ink ink) const {

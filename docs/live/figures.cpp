@@ -2,6 +2,8 @@
 
 namespace space::live {
 
+Answer bsp_build(const State& state);
+Answer bsp_walk(const State& state);
 Answer build_methods(const State& state);
 Answer build_steps(const State& state);
 Answer bvh_walk(const State& state);
@@ -18,7 +20,8 @@ Answer shared_edge(const State& state);
 
 std::span<const LiveFigure> live_figures() {
     static constexpr std::array all{
-        LiveFigure{"fig_02_02", shared_edge},     LiveFigure{"fig_04_05", plane_costs},
+        LiveFigure{"fig_02_02", shared_edge},     LiveFigure{"fig_03_13", bsp_build},
+        LiveFigure{"fig_03_14", bsp_walk},        LiveFigure{"fig_04_05", plane_costs},
         LiveFigure{"fig_04_12", point_searches},  LiveFigure{"fig_04_14", kd_build},
         LiveFigure{"fig_05_02", lazy_rays},       LiveFigure{"fig_06_09", morton_curve},
         LiveFigure{"fig_06_15", quadtree_points}, LiveFigure{"fig_07_17", bvh_walk},

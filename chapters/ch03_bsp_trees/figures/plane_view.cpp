@@ -31,6 +31,7 @@ std::pair<Double2, Double2> line_in_cell(const Story& story, std::size_t turn) {
         if (at_p * at_q < 0.0 || at_p == 0.0)
             ends.push_back(at_p == 0.0 ? p : p + at_p / (at_p - at_q) * (q - p));
     }
+    if (ends.empty()) return {Double2(plane.through.a), Double2(plane.through.b)};  // a thin cell
     // Of a line through a corner, rounding may leave more than two: the outermost are its ends.
     const Double2 along(plane.normal.y, -plane.normal.x);
     const auto [first, last] =

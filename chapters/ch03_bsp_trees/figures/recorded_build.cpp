@@ -75,14 +75,20 @@ Double2 roomy_place(const ConvexCell& cell, std::span<const Piece> pieces) {
             const bool inside = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
             room = std::min(room, inside ? distance(p, a, b) : 0.0);
         }
-        for (const Piece& piece : pieces)
+        for (const Piece& piece : pieces) {
+            if (room <= most) break;
             room = std::min(room, 0.5 * distance(p, piece.from, piece.to));
+        }
         if (room > most) most = room, best = p;
     }
     return best;
 }
 
 }  // namespace
+
+bool Story::left_out() const {
+    return std::ranges::any_of(tree.polygons, [](const Segment& s) { return s.a == s.b; });
+}
 
 Double2 cut_point(const Story& story, const Turn::Cut& cut) {
     const Piece &front = story.pieces[cut.front], &back = story.pieces[cut.back];
@@ -122,7 +128,9 @@ Story watched_build(std::span<const Segment> segments, const BspConfig& config,
         }
     };
     if (!story.tree.nodes.empty()) visit(visit, 0);
-    for (EmptyCell& cell : story.cells) cell.place = roomy_place(cell.cell, story.pieces);
+    for (EmptyCell& cell : story.cells)
+        cell.place = cell.cell.empty() ? story.splitter(cell.node).from
+                                       : roomy_place(cell.cell, story.pieces);
     return story;
 }
 

@@ -44,7 +44,8 @@ struct EmptyCell {
     std::uint32_t node;
     bool in_front;
     ConvexCell cell;
-    Double2 place;  ///< for its number: far from its sides and from all pieces
+    Double2 place;  ///< for its number: far from its sides and from all pieces; at a corner of a
+                    ///< cell that is too thin, at its node's splitter if it has none
 };
 
 /// The tree with the turns that made it, one for each node.
@@ -55,6 +56,11 @@ struct Story {
     std::vector<std::size_t> fragment_pieces;  ///< of the tree's fragments
     std::vector<EmptyCell>
         cells;  ///< from back to front in every node: from left to right in a drawn tree
+
+    /// Of a turn: the piece that lies in its line, the first if there are more.
+    const Piece& splitter(std::size_t turn) const { return pieces[turns[turn].own.front()]; }
+    /// Whether there are segments without extent.
+    bool left_out() const;
 };
 
 /// Where the cut was made.
