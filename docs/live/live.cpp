@@ -10,7 +10,7 @@
 namespace space::live {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string json_text(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\')
@@ -56,25 +56,26 @@ std::string pair_text(const Double2& p) {
 }
 
 std::string text(const Handle& h) {
-    return fmt::format(R"({{"name":{},"label":{},"value":{},"zero":{},"unit":{}}})", quoted(h.name),
-                       quoted(h.label), pair_text(h.value), pair_text(h.zero), pair_text(h.unit));
+    return fmt::format(R"({{"name":{},"label":{},"value":{},"zero":{},"unit":{}}})",
+                       json_text(h.name), json_text(h.label), pair_text(h.value), pair_text(h.zero),
+                       pair_text(h.unit));
 }
 
 std::string text(const Choice& c) {
-    return fmt::format(R"({{"name":{},"label":{},"names":{},"chosen":{}}})", quoted(c.name),
-                       quoted(c.label), list(c.names, quoted), c.chosen);
+    return fmt::format(R"({{"name":{},"label":{},"names":{},"chosen":{}}})", json_text(c.name),
+                       json_text(c.label), list(c.names, json_text), c.chosen);
 }
 
 std::string text(const Slider& s) {
     return fmt::format(R"({{"name":{},"label":{},"value":{},"least":{},"most":{},"step":{}}})",
-                       quoted(s.name), quoted(s.label), s.value, s.least, s.most, s.step);
+                       json_text(s.name), json_text(s.label), s.value, s.least, s.most, s.step);
 }
 
 std::string text(const Points& p) {
     return fmt::format(
         R"({{"name":{},"label":{},"values":{},"zero":{},"unit":{},"least":{},"most":{},)"
         R"("limit":{}}})",
-        quoted(p.name), quoted(p.label), list(p.values, pair_text), pair_text(p.zero),
+        json_text(p.name), json_text(p.label), list(p.values, pair_text), pair_text(p.zero),
         pair_text(p.unit), p.least, p.most, p.limit);
 }
 
@@ -142,12 +143,12 @@ Reply reply_to(std::string_view request) {
         Reply reply{fmt::format(
             R"({{"svg":{},"summary":{},"handles":{},"choices":{},"sliders":{},"points":{},)"
             R"("picture":{}}})",
-            quoted(answer.drawing.document(id)), quoted(answer.summary), text(answer.handles),
+            json_text(answer.drawing.document(id)), json_text(answer.summary), text(answer.handles),
             text(answer.choices), text(answer.sliders), text(answer.points), text(answer.picture))};
         if (answer.picture) reply.pixels = std::move(answer.picture->rgba);
         return reply;
     }
-    return {fmt::format(R"({{"error":{}}})", quoted(fmt::format("no live figure {}", id)))};
+    return {fmt::format(R"({{"error":{}}})", json_text(fmt::format("no live figure {}", id)))};
 }
 
 }  // namespace space::live
