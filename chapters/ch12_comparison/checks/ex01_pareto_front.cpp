@@ -91,6 +91,12 @@ TEST_CASE("two with the same times do not beat each other, and stay as they stoo
     check({{2.0, 8.0}, {2.0, 8.0}, {1.0, 7.0}}, {2});
 }
 
+TEST_CASE("a hundred, many with the same times, stay as they stood") {
+    std::vector<BuildAndTrace> many;
+    for (int i = 0; i < 100; ++i) many.push_back({double(i * 7 % 3), double(3 - i * 7 % 3)});
+    check(many, front_of(many));
+}
+
 TEST_CASE("what gave up is not on the front and beats nobody, whichever time is missing") {
     check({{none, none}}, {});
     check({{none, 5.0}, {5.0, none}}, {});
