@@ -1,5 +1,6 @@
 #include "chapters/ch12_comparison/advice.hpp"
 
+#include "chapters/ch12_comparison/comma_parts.hpp"
 #include "chapters/ch12_comparison/kept_advice.hpp"  // in the build directory
 #include "common/program/error.hpp"
 #include "common/program/report.hpp"
@@ -11,18 +12,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace space {
 namespace {
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (std::size_t comma; (comma = line.find(',')) != line.npos; line.remove_prefix(comma + 1))
-        fields.push_back(line.substr(0, comma));
-    fields.push_back(line);
-    return fields;
-}
 
 /// What a line of the file holds: whose, what, and numbers.
 struct ModelLine {
@@ -31,7 +25,7 @@ struct ModelLine {
 };
 
 ModelLine parse_line(std::string_view line) {
-    const std::vector<std::string_view> fields = fields_of(line);
+    const std::vector<std::string_view> fields = comma_parts(line);
     const auto fault = [&] { return input_error(fmt::format("model of advice: '{}'", line)); };
     if (fields.size() < 3) throw fault();
     ModelLine parsed{fields[0], fields[1], {}};
@@ -53,8 +47,12 @@ void take(AdviceModel& model, const ModelLine& line) {
             line.numbers.front();
         return;
     }
-    if (line.whose == "usual") {
-        std::copy(line.numbers.begin() + 1, line.numbers.end(), model.usual.begin());
+    if (line.whose == "features") {
+        const auto part = line.what == "least"  ? &FeatureRange::least
+                          : line.what == "most" ? &FeatureRange::most
+                                                : &FeatureRange::usual;
+        for (std::size_t j = 0; j < model.seen.size(); ++j)
+            model.seen[j].*part = line.numbers[j + 1];
         return;
     }
     if (model.structures.empty() || model.structures.back().structure != line.whose)
@@ -81,9 +79,10 @@ std::string seen(std::size_t feature, double value) {
     const double power = std::exp2(value);
     switch (feature) {
         case 0:
-            return fmt::format("{:.3g} triangles", power);
+            return fmt::format("{:.3g} triangle{}", power, power == 1.0 ? "" : "s");
         case 1:
-            return fmt::format("a random line meets {:.3g} boxes", power - 1.0);
+            return fmt::format("a random line meets {:.3g} box{}", power - 1.0,
+                               power == 2.0 ? "" : "es");
         case 2:
             return fmt::format("the largest triangle is {:.3g} times the median", power);
         case 3:
@@ -93,6 +92,41 @@ std::string seen(std::size_t feature, double value) {
         default:
             return fmt::format("triangles are {:.3g} times as long as high", power);
     }
+}
+
+/// A factor from 1 on, with three digits.
+std::string times_text(double ratio) {
+    return ratio < 100.0 ? fmt::format("{:.2f}", ratio) : fmt::format("{:.3g}", ratio);
+}
+
+/// The feature that did most for the first candidate, and by how much.
+struct DecidingFeature {
+    std::size_t feature;
+    double octaves;
+    bool is_of_build;
+};
+
+/// In the term that decided: that in which the first is ahead, and where it is so in both the one
+/// with the larger difference. Nothing where that is a refit, or where no feature did much.
+std::optional<DecidingFeature> deciding_feature(const AdviceModel& model,
+                                                const SceneFeatures& features,
+                                                const Candidate& first, const Candidate& second) {
+    const double ahead_in_build = second.cost.build_ns - first.cost.build_ns;
+    const double ahead_in_rays = (second.total_ns - first.total_ns) - ahead_in_build;
+    const bool by_build = ahead_in_build > ahead_in_rays;
+    if (by_build && (first.is_refitted || second.is_refitted)) return std::nullopt;
+    const StructureModel &a = model_of(model, first.structure),
+                         &b = model_of(model, second.structure);
+    const LinearModel &of_a = by_build ? a.build : a.ray, &of_b = by_build ? b.build : b.ray;
+    const auto x = values(features);
+    DecidingFeature most{0, 0.0, by_build};
+    for (std::size_t j = 0; j < x.size(); ++j) {
+        const double gain = (of_b.weights[j] - of_a.weights[j]) * (x[j] - model.seen[j].usual);
+        if (gain > most.octaves) most = {j, gain, by_build};
+    }
+    constexpr double worth_telling = 0.05;  // 4 %
+    if (most.octaves > worth_telling) return most;
+    return std::nullopt;
 }
 
 }  // namespace
@@ -149,7 +183,7 @@ std::string reason(const AdviceModel& model, const SceneFeatures& features,
     const double ray = second.cost.ns_per_ray / first.cost.ns_per_ray;
     const double rays = break_even_rays(first.cost, second.cost);
     const auto factor = [](double ratio) {
-        return ratio >= 1.0 ? fmt::format("{:.2f} times as long", ratio)
+        return ratio >= 1.0 ? fmt::format("{} times as long", times_text(ratio))
                             : fmt::format("{:.2f} of the time", ratio);
     };
     std::string text = fmt::format("{} takes {} to build, and its rays take {}", second.structure,
@@ -158,34 +192,15 @@ std::string reason(const AdviceModel& model, const SceneFeatures& features,
         text += fmt::format(": it pays {} {:.2g} rays.", ray < 1.0 ? "from" : "up to", rays);
     else
         text += ": it never pays.";
-
-    // The term that decided is the one in which the first is ahead: where it is so in both, the
-    // larger difference.
-    const double ahead_in_build = second.cost.build_ns - first.cost.build_ns;
-    const double ahead_in_rays = (second.total_ns - first.total_ns) - ahead_in_build;
-    const bool by_build = ahead_in_build > ahead_in_rays;
-    if (by_build && (first.is_refitted || second.is_refitted)) return text;
-    const StructureModel &a = model_of(model, first.structure),
-                         &b = model_of(model, second.structure);
-    const LinearModel &of_a = by_build ? a.build : a.ray, &of_b = by_build ? b.build : b.ray;
-    const auto x = values(features);
-    std::size_t most = 0;
-    double octaves = 0.0;
-    for (std::size_t j = 0; j < x.size(); ++j) {
-        const double gain = (of_b.weights[j] - of_a.weights[j]) * (x[j] - model.usual[j]);
-        if (gain > octaves) {
-            octaves = gain;
-            most = j;
-        }
-    }
-    constexpr double worth_telling = 0.05;  // 4 %
-    if (octaves > worth_telling)
-        text += fmt::format(
-            " What speaks most for {}: {} (usually: {}), by which {} takes {:.2f} "
-            "times as long for its {}.",
-            first.structure, seen(most, x[most]), seen(most, model.usual[most]), second.structure,
-            std::exp2(octaves), by_build ? "build" : "rays");
-    return text;
+    const auto told = deciding_feature(model, features, first, second);
+    if (!told) return text;
+    const double usual = model.seen[told->feature].usual;
+    return text + fmt::format(
+                      " What speaks most for {}: {} (usually: {}), by which {} takes {} "
+                      "times as long for its {}.",
+                      first.structure, seen(told->feature, values(features)[told->feature]),
+                      seen(told->feature, usual), second.structure,
+                      times_text(std::exp2(told->octaves)), told->is_of_build ? "build" : "rays");
 }
 
 AdviceModel read_advice(std::string_view csv) {
@@ -220,7 +235,13 @@ std::string advice_csv(const AdviceModel& model) {
     for (const std::string_view name : feature_names) csv += fmt::format(",{}", name);
     csv += fmt::format("\nprobe,build,{:.9g}\nprobe,ray,{:.9g}\n", model.probe.build_per_triangle,
                        model.probe.per_ray);
-    csv += line_of("usual", "features", {0.0, {model.usual.begin(), model.usual.end()}});
+    for (const auto& [name, part] : {std::pair("usual", &FeatureRange::usual),
+                                     {"least", &FeatureRange::least},
+                                     {"most", &FeatureRange::most}}) {
+        LinearModel line;
+        for (const FeatureRange& range : model.seen) line.weights.push_back(range.*part);
+        csv += line_of("features", name, line);
+    }
     for (const StructureModel& structure : model.structures) {
         csv += line_of(structure.structure, "build", structure.build);
         csv += line_of(structure.structure, "ray", structure.ray);

@@ -41,11 +41,17 @@ struct ProbeTimes {
     double build_per_triangle = 1.0, per_ray = 1.0;
 };
 
+/// A feature over the scenes that a model was fitted on: its mean, least and largest value.
+struct FeatureRange {
+    double usual = 0.0, least = 0.0, most = 0.0;
+    bool operator==(const FeatureRange&) const = default;
+};
+
 /// All that is kept of the measurements.
 struct AdviceModel {
     std::vector<StructureModel> structures = {};
-    std::array<double, feature_names.size()> usual{};  ///< features: means over the scenes fitted
-    ProbeTimes probe = {};                             ///< of the machine that it was fitted on
+    std::array<FeatureRange, feature_names.size()> seen{};
+    ProbeTimes probe = {};  ///< of the machine that it was fitted on
     std::string machine = {}, date = {};
 };
 

@@ -22,8 +22,14 @@ std::string time_text(double ns) {
     return fmt::format("{:.3g} s", ns * 1e-9);
 }
 
-std::string megabytes(double bytes) {
+std::string bytes_text(double bytes) {
+    if (bytes < 1e3) return fmt::format("{:.0f} bytes", bytes);
+    if (bytes < 1e6) return fmt::format("{:.3g} kB", bytes * 1e-3);
     return fmt::format("{:.3g} MB", bytes * 1e-6);
+}
+
+std::string rays_text(double rays) {
+    return rays == 1.0 ? "1 ray" : fmt::format("{:.3g} rays", rays);
 }
 
 void print_features(const AdviceModel& model, const SceneFeatures& f, double ms, std::FILE* out) {
@@ -39,14 +45,20 @@ void print_features(const AdviceModel& model, const SceneFeatures& f, double ms,
         fmt::format("the median triangle is {:.3g} times as long as high",
                     std::exp2(f.slenderness))};
     for (std::size_t j = 0; j < x.size(); ++j)
-        table.row(
-            {std::string(feature_names[j]), fixed(x[j], 2), fixed(model.usual[j], 2), what[j]});
+        table.row({std::string(feature_names[j]), fixed(x[j], 2), fixed(model.seen[j].usual, 2),
+                   what[j]});
     fmt::print(out, "seen in {}\n\n{}\n", time_text(1e6 * ms), table.text());
+    for (std::size_t j = 0; j < x.size(); ++j)
+        if (const FeatureRange& seen = model.seen[j]; x[j] < seen.least || x[j] > seen.most)
+            fmt::print(out,
+                       "beware  {} is {:.4g}, and the model knows {:.3g} to {:.3g}: what follows "
+                       "may be far off\n",
+                       feature_names[j], x[j], seen.least, seen.most);
 }
 
 Table candidates_table(std::span<const Candidate> candidates, const AdviceRequest& request) {
     Table table({"structure", request.moving ? "each frame" : "build", "rays/s", "MB",
-                 fmt::format("{:.3g} rays in all", request.rays), "beside the best"});
+                 rays_text(request.rays) + " in all", "beside the best"});
     for (const Candidate& c : candidates)
         table.row({c.structure,
                    fmt::format("{}{}", c.is_refitted ? "refit " : "", time_text(c.cost.build_ns)),
@@ -88,7 +100,7 @@ void print_advice(const std::string& mesh, std::span<const Triangle> triangles,
             model.structures, {}, [&](const StructureModel& s) { return s.cost(features).bytes; });
         throw usage_error(fmt::format("--memory {:.6g}: the smallest structure, {}, needs {}",
                                       *request.memory * 1e-6, least.structure,
-                                      megabytes(least.cost(features).bytes)));
+                                      bytes_text(least.cost(features).bytes)));
     }
     const Candidate& first = candidates.front();
     fmt::print(out, "mesh    {}: {}, ", mesh, counted(triangles.size(), "triangle"));
@@ -97,11 +109,11 @@ void print_advice(const std::string& mesh, std::span<const Triangle> triangles,
                "machine builds take {:.2f} times, rays {:.2f} times as long as on the machine "
                "of the model ({}, {})\n\n",
                here.build, here.ray, model.machine, model.date);
-    fmt::print(out, "advice  {}{}: {} {}, {:.3g} rays/s, {}; {} for {:.3g} rays{}\n",
-               first.structure, first.is_refitted ? ", refitted" : "",
-               time_text(first.cost.build_ns), request.moving ? "each frame" : "to build",
-               1e9 / first.cost.ns_per_ray, megabytes(first.cost.bytes), time_text(first.total_ns),
-               request.rays, request.moving ? " a frame" : "");
+    fmt::print(out, "advice  {}{}: {} {}, {:.3g} rays/s, {}; {} for {}{}\n", first.structure,
+               first.is_refitted ? ", refitted" : "", time_text(first.cost.build_ns),
+               request.moving ? "each frame" : "to build", 1e9 / first.cost.ns_per_ray,
+               bytes_text(first.cost.bytes), time_text(first.total_ns), rays_text(request.rays),
+               request.moving ? " a frame" : "");
     fmt::print(out, "why     {}\n", reason(model, features, candidates));
     if (request.moving)
         fmt::print(out,

@@ -2,6 +2,7 @@
 
 #include "chapters/ch09_instancing_and_motion/instance_file.hpp"
 #include "chapters/ch12_comparison/camera_option.hpp"
+#include "chapters/ch12_comparison/comma_parts.hpp"
 #include "chapters/ch12_comparison/lab_report.hpp"
 #include "chapters/ch12_comparison/output_check.hpp"
 #include "common/program/error.hpp"
@@ -62,15 +63,6 @@ CGAL) have tests of their own: their wrong answers are counted, and are no fault
 Exit codes: 0, 1 where --check found a disagreement or a structure gave up, 2 usage, 3 bad input,
 4 cannot write.
 Nothing is written before all is measured, and a file that cannot be written whole is not there.)";
-
-/// "a,b,c" -> "a", "b", "c"; empty entries stay.
-std::vector<std::string> split(std::string_view text) {
-    std::vector<std::string> parts;
-    for (std::size_t comma; (comma = text.find(',')) != text.npos; text.remove_prefix(comma + 1))
-        parts.emplace_back(text.substr(0, comma));
-    parts.emplace_back(text);
-    return parts;
-}
 
 void add_file_options(CLI::App& app, LabOptions& options) {
     const auto named = [](const std::string& text) { return name_fault(text); };
@@ -260,7 +252,8 @@ LabOptions parse_lab_options(int argc, char** argv) {
     parse_command_line(app, argc, argv);
     list_scenes_if_asked(options.common);
 
-    options.structures = split(structures);
+    const std::vector<std::string_view> named = comma_parts(structures);
+    options.structures.assign(named.begin(), named.end());
     if (std::ranges::count(options.structures, "") > 0)
         throw usage_error("--structure: the name of a structure is missing (see --structure list)");
     if (!options.instances.empty() && options.check && !options.flatten)

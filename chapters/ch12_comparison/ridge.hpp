@@ -89,4 +89,18 @@ inline LinearModel fit_ridge(std::span<const std::vector<double>> rows, std::spa
 }
 // [ridge]
 
+// [smeared]
+/// A model of log2 y foretells the middle of y. Moved, it foretells the mean, in which a cost that
+/// is far off counts as it is paid: Duan 1983, "Smearing estimate: a nonparametric
+/// retransformation method". Rows and log2 y are those that the model was fitted to.
+inline LinearModel smeared(LinearModel model, std::span<const std::vector<double>> rows,
+                           std::span<const double> log2_y) {
+    double mean = 0.0;  // of y / what was foretold
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        mean += std::exp2(log2_y[i] - model(rows[i])) / static_cast<double>(rows.size());
+    model.intercept += std::log2(mean);
+    return model;
+}
+// [smeared]
+
 }  // namespace space

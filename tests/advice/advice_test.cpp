@@ -156,7 +156,8 @@ TEST_CASE("of a moving scene trees are refitted where that is quicker") {
 
 TEST_CASE("the reason names the term and the feature that decided") {
     AdviceModel model = three();
-    model.usual = {10, 2, 0, 0, 0, 0};
+    model.seen[0].usual = 10;
+    model.seen[1].usual = 2;
     model.structures[1].ray.weights[1] = 0.5;  // overlap hurts the quick one
     const SceneFeatures overlapping{.count = 10.0, .overlap = 5.0};
     const auto candidates = advise(model, overlapping, {.rays = 1e6});
@@ -172,7 +173,7 @@ TEST_CASE("the reason names the term and the feature that decided") {
 TEST_CASE("a model comes back from its file, and a broken file is an error of one line") {
     Pcg32 random(3);
     AdviceModel model = random_model(random);
-    model.usual = {1, 2, 3, 4, 5, 6};
+    model.seen = {{{1, 0, 2}, {2, 1, 3}, {3, 3, 3}, {4, 4, 5}, {5, 2, 7}, {6, -1, 8}}};
     model.probe = {12.5, 250.0};
     model.machine = "a machine";
     model.date = "2026-01-02";
@@ -182,7 +183,7 @@ TEST_CASE("a model comes back from its file, and a broken file is an error of on
     CHECK(again.machine == model.machine);
     CHECK(again.date == model.date);
     CHECK(again.probe.per_ray == 250.0);
-    CHECK(again.usual == model.usual);
+    CHECK(again.seen == model.seen);
     REQUIRE(again.structures.size() == model.structures.size());
     CHECK(again.structures.back().ray.weights[2] == Approx(model.structures.back().ray.weights[2]));
 

@@ -58,7 +58,7 @@ std::vector<const KnownScene*> pointers(const std::vector<KnownScene>& scenes) {
 TEST_CASE("a model without a penalty finds what made the costs, and is right about new scenes") {
     const std::vector<KnownScene> scenes = made_up_scenes(60);
     const std::vector<const KnownScene*> all = pointers(scenes);
-    const AdviceModel model = fit_advice(std::span(all).first(30), 0.0);
+    const AdviceModel model = fit_advice(std::span(all).first(30), {});
     REQUIRE(model.structures.size() == 2);
     CHECK(model.structures[0].structure == "quick");
     CHECK(model.structures[0].ray.weights[1] == Approx(0.5));
@@ -71,29 +71,41 @@ TEST_CASE("a model without a penalty finds what made the costs, and is right abo
         }
 }
 
-TEST_CASE("without features a model knows the number of triangles alone") {
+TEST_CASE("a model of one feature knows the number of triangles alone") {
     const std::vector<KnownScene> scenes = made_up_scenes(30);
-    const AdviceModel model = fit_advice(pointers(scenes), {});
+    const AdviceModel model = fit_advice(pointers(scenes), {.features = 1});
     for (const StructureModel& structure : model.structures)
         for (std::size_t j = 1; j < feature_names.size(); ++j)
             CHECK(structure.ray.weights[j] == 0.0);
     CHECK(model.structures[0].build.weights[0] == Approx(0.1));
 }
 
+TEST_CASE("costs that the features do not tell apart are foretold by their mean") {
+    std::vector<KnownScene> scenes = made_up_scenes(2);
+    scenes[1].seen = scenes[0].seen;
+    scenes[1].features = scenes[0].features;
+    for (std::size_t i = 0; i < 2; ++i)
+        for (auto& [structure, cost] : scenes[i].costs) cost.ns_per_ray = i == 0 ? 100.0 : 900.0;
+    const AdviceModel model = fit_advice(pointers(scenes), {});
+    CHECK(model.structures[0].cost(scenes[0].features).ns_per_ray == Approx(500.0));
+    CHECK(model.seen[0].least == scenes[0].features.count);
+    CHECK(model.seen[0].most == scenes[0].features.count);
+}
+
 TEST_CASE("a structure that fell on a small scene is no candidate, on a large one it may") {
     std::vector<KnownScene> scenes = made_up_scenes(20);
     scenes[3].seen.triangles = 500'000;
     std::erase_if(scenes[3].costs, [](const auto& cost) { return cost.first == "slow"; });
-    CHECK(fit_advice(pointers(scenes), 1.0).structures.size() == 2);
+    CHECK(fit_advice(pointers(scenes), {.penalty = 1.0}).structures.size() == 2);
     scenes[3].seen.triangles = 100'000;
-    const AdviceModel model = fit_advice(pointers(scenes), 1.0);
+    const AdviceModel model = fit_advice(pointers(scenes), {.penalty = 1.0});
     REQUIRE(model.structures.size() == 1);
     CHECK(model.structures[0].structure == "quick");
 }
 
 TEST_CASE("what was not measured on a scene is passed over when it is judged") {
     std::vector<KnownScene> scenes = made_up_scenes(20);
-    const AdviceModel model = fit_advice(pointers(scenes), 0.0);
+    const AdviceModel model = fit_advice(pointers(scenes), {});
     std::erase_if(scenes[0].lines, [](const CostLine& line) { return line.name == "slow"; });
     for (const AdviceCase& c : ask(model, scenes[0])) CHECK(c.advised == "quick");
 }

@@ -23,8 +23,8 @@ struct RaysRange {
 
 std::vector<RaysRange> most_often_cheapest(std::span<const Block> shown) {
     std::vector<RaysRange> ranges;
-    for (int half_decade = 0; half_decade <= 20; ++half_decade) {
-        const double rays = std::pow(10.0, 0.5 * half_decade);
+    for (int tenth = 0; tenth <= 100; ++tenth) {
+        const double rays = std::pow(10.0, 0.1 * tenth);
         std::map<std::string, int> wins;
         for (const Block block : shown) {
             const std::vector<CostLine> lines = cost_lines(block, false);
@@ -33,6 +33,9 @@ std::vector<RaysRange> most_often_cheapest(std::span<const Block> shown) {
         const auto most =
             std::ranges::max_element(wins, {}, [](const auto& named) { return named.second; });
         if (most == wins.end()) continue;
+        // A lead that is lost again before the rays are three times as many is none.
+        const bool is_new = ranges.empty() || ranges.back().structure != most->first;
+        if (is_new && ranges.size() > 1 && rays < 3.0 * ranges.back().from) ranges.pop_back();
         if (ranges.empty() || ranges.back().structure != most->first)
             ranges.push_back({most->first, rays});
     }
@@ -48,7 +51,7 @@ double usual_bytes(std::span<const Block> shown, std::string_view structure) {
     return median(bytes);
 }
 
-/// 316 -> "300": half decades, with one digit.
+/// 316 -> "300": with one digit.
 std::string round_count(double rays) {
     const double decade = std::pow(10.0, std::floor(std::log10(rays) + 1e-9));
     return tick_text(std::round(rays / decade) * decade, 1e10);

@@ -1,6 +1,8 @@
 #include "chapters/ch12_comparison/measured/accuracy_data.hpp"
 #include "common/program/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace space::ch12 {
@@ -64,6 +67,17 @@ void quote_accuracy(std::span<const AccuracyRow> rows, Numbers& numbers) {
     whole("accuracy_most", most);
     whole("accuracy_rays", double(rows.front().rays) * double(scenes.size()));
     whole("accuracy_scenes", double(scenes.size()));
+    // What the exact test takes beside the plain one in float, in one and the same structure. (The
+    // wide kernels of chapter 10 know the exact test alone.)
+    std::vector<double> dearer;
+    for (const AccuracyPoint& exact_one : points)
+        for (const AccuracyPoint& plain : points)
+            if (exact_one.structure == plain.structure && !plain.structure.starts_with("fast") &&
+                exact_one.test == "filtered-exact" && plain.test == "moller-trumbore-float")
+                dearer.push_back(exact_one.ns_per_ray / plain.ns_per_ray - 1.0);
+    for (const auto& [name, value] :
+         {std::pair("least", std::ranges::min(dearer)), {"most", std::ranges::max(dearer)}})
+        numbers.time(fmt::format("accuracy_exact_dearer_{}", name), value, percent(value));
     numbers.time_table("accuracy", table);
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -151,25 +152,26 @@ Foretold by_neighbours(const Scenes& scenes) {
 struct Way {
     std::string name, about;
     std::function<Foretold(const Scenes&)> make;
-    std::optional<double> penalty = {};
-    bool is_regression = false;
+    std::optional<FitRule> rule = {};  ///< of a regression
 };
 
-Way regression(std::string name, std::string about, std::optional<double> penalty) {
+Way regression(std::string name, std::string about, const FitRule& rule) {
     return {std::move(name), std::move(about),
-            [=](const Scenes& scenes) { return by_model(fit_advice(scenes, penalty)); }, penalty,
-            true};
+            [=](const Scenes& scenes) { return by_model(fit_advice(scenes, rule)); }, rule};
 }
 
 std::vector<Way> ways() {
+    constexpr std::size_t all = feature_names.size();
     return {{"one for all", "always the same structure", always_the_same},
-            regression("count", "by the number of triangles alone", {}),
-            regression("features, 10", "by all features, with a penalty of 10", 10.0),
-            regression("features, 3", "of 3", 3.0),
-            regression("features, 1", "of 1", 1.0),
-            regression("features, 0.3", "of 0.3", 0.3),
-            regression("features, 0.1", "of 0.1", 0.1),
-            regression("features, 0.01", "of 0.01", 0.01),
+            regression("count", "by the number of triangles alone", {1, 0.0}),
+            regression("overlap, 1", "by that and the overlap, with a penalty of 1", {2, 1.0}),
+            regression("overlap, 0.3", "of 0.3", {2, 0.3}),
+            regression("overlap, 0.1", "of 0.1", {2, 0.1}),
+            regression("features, 10", "by all features, with a penalty of 10", {all, 10.0}),
+            regression("features, 3", "of 3", {all, 3.0}),
+            regression("features, 1", "of 1", {all, 1.0}),
+            regression("features, 0.3", "of 0.3", {all, 0.3}),
+            regression("features, 0.1", "of 0.1", {all, 0.1}),
             {"neighbours", "by the three scenes that look most alike", by_neighbours}};
 }
 
@@ -228,9 +230,7 @@ std::vector<KnownScene> known_scenes(const Comparison& comparison, std::uint64_t
             scene.costs.emplace_back(
                 row.structure,
                 StructureCost{1e6 * row.ready_ms(), row.mean_ns(), static_cast<double>(row.bytes)});
-        // A single ray may miss everything: it says nothing of a lazy tree's cost.
-        for (const CostLine& line : cost_lines(rows, false))
-            if (line.most_rays > 10.0) scene.lines.push_back(line);
+        scene.lines = cost_lines(rows, false);
         const ComparedSubject subject = make_subject(rows[0].scene, rows[0].spec, seed);
         Stopwatch stopwatch;
         scene.features = features_of(subject.triangles);
@@ -247,13 +247,17 @@ std::vector<KnownScene> known_scenes(const Comparison& comparison, std::uint64_t
     return known;
 }
 
-AdviceModel fit_advice(std::span<const KnownScene* const> scenes, std::optional<double> penalty) {
+AdviceModel fit_advice(std::span<const KnownScene* const> scenes, const FitRule& rule) {
     AdviceModel model;
-    std::vector<double> penalties(feature_names.size(), penalty.value_or(0.0));
+    std::vector<double> penalties(feature_names.size(), rule.penalty);
     penalties.front() = 0.0;
-    for (const KnownScene* scene : scenes)
-        for (std::size_t j = 0; j < model.usual.size(); ++j)
-            model.usual[j] += scene->seen.features[j] / static_cast<double>(scenes.size());
+    for (std::size_t j = 0; j < feature_names.size(); ++j) {
+        std::vector<double> values;
+        for (const KnownScene* scene : scenes) values.push_back(scene->seen.features[j]);
+        const auto [least, most] = std::ranges::minmax(values);
+        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+        model.seen[j] = {sum / static_cast<double>(values.size()), least, most};
+    }
     for (const std::string& name : candidates_of(scenes)) {
         std::vector<std::vector<double>> x;
         std::vector<double> build, ray, bytes;
@@ -261,14 +265,17 @@ AdviceModel fit_advice(std::span<const KnownScene* const> scenes, std::optional<
             for (const auto& [structure, cost] : scene->costs) {
                 if (structure != name) continue;
                 x.push_back(scene->seen.features);
-                if (!penalty) std::fill(x.back().begin() + 1, x.back().end(), 0.0);
+                std::fill(x.back().begin() + static_cast<std::ptrdiff_t>(rule.features),
+                          x.back().end(), 0.0);
                 const double triangles = std::exp2(scene->features.count);
                 build.push_back(std::log2(cost.build_ns / triangles));
                 ray.push_back(std::log2(cost.ns_per_ray));
                 bytes.push_back(std::log2(cost.bytes / triangles));
             }
-        model.structures.push_back({name, fit_ridge(x, build, penalties),
-                                    fit_ridge(x, ray, penalties), fit_ridge(x, bytes, penalties)});
+        const auto fitted = [&](const std::vector<double>& y) {
+            return smeared(fit_ridge(x, y, penalties), x, y);
+        };
+        model.structures.push_back({name, fitted(build), fitted(ray), fitted(bytes)});
     }
     return model;
 }
@@ -291,12 +298,12 @@ JudgedAdvice judge_advice(const Comparison& comparison, std::uint64_t seed) {
     const std::vector<Way> all = ways();
     for (const Way& way : all) judged.methods.push_back(cross_validated(way, fitted));
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (all[i].is_regression &&
-            (!all[judged.chosen].is_regression ||
+        if (all[i].rule &&
+            (!all[judged.chosen].rule ||
              judged.methods[i].mean_ratio < judged.methods[judged.chosen].mean_ratio))
             judged.chosen = i;
     const Way& chosen = all[judged.chosen];
-    AdviceModel model = fit_advice(fitted, chosen.penalty);
+    AdviceModel model = fit_advice(fitted, *chosen.rule);
     model.probe = probe_machine(1).times;
     model.machine = comparison.machine;
     model.date = comparison.date;

@@ -10,8 +10,8 @@
 #include "common/program/numbers.hpp"
 #include "common/program/options.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -35,10 +35,16 @@ bool is_for_fitting(const std::string& scene, const std::string& spec);
 /// Timed blocks of our structures, without bvh-instanced, which wants instances.
 std::vector<KnownScene> known_scenes(const Comparison& comparison, std::uint64_t seed);
 
-/// The model of the structures that stand on all of these scenes of up to 100,000 triangles. Growth
-/// with the number of triangles is free, each other feature's weight has the penalty; without one
-/// they are not looked at.
-AdviceModel fit_advice(std::span<const KnownScene* const> scenes, std::optional<double> penalty);
+/// What a model may learn: the first so many features, 1 to all. Growth with the number of
+/// triangles is free, the weight of each other one has the penalty.
+struct FitRule {
+    std::size_t features = feature_names.size();
+    double penalty = 0.0;
+};
+
+/// The model of the structures that stand on all of these scenes of up to 100,000 triangles. It
+/// foretells means, not the logarithms' (ridge.hpp: smeared).
+AdviceModel fit_advice(std::span<const KnownScene* const> scenes, const FitRule& rule);
 
 /// Advice for 1, 10, ... 10^10 rays through the scene. What was not measured there is passed over.
 std::vector<AdviceCase> ask(const AdviceModel& model, const KnownScene& scene);

@@ -66,9 +66,7 @@ inline std::vector<CheapestSpan> lower_envelope(std::span<const CostLine> lines,
             if (!(lines[i].ns_per_ray < now.ns_per_ray)) continue;
             const double gained = now.ns_per_ray - lines[i].ns_per_ray;
             const double crossing = std::max(from, (lines[i].fixed_ns - now.fixed_ns) / gained);
-            const bool is_first = crossing < end || (crossing == end && next != line &&
-                                                     lines[i].ns_per_ray < lines[next].ns_per_ray);
-            if (!is_first || crossing > lines[i].most_rays) continue;
+            if (crossing >= end || crossing > lines[i].most_rays) continue;
             end = crossing;
             next = i;
         }

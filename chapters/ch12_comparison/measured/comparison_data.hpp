@@ -5,6 +5,7 @@
 
 #include "common/program/options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -64,8 +65,12 @@ struct ComparedRow {
     const TracedKind& operator[](RayKind kind) const {
         return traced[static_cast<std::size_t>(kind)];
     }
-    /// Until all nodes stand that the measured rays need.
-    double ready_ms() const { return build_ms + (made_later.empty() ? 0.0 : made_later.back().ms); }
+    /// Until all nodes stand that the measured rays need: more rays never make fewer.
+    double ready_ms() const {
+        double made_ms = 0.0;
+        for (const NodesMade& made : made_later) made_ms = std::max(made_ms, made.ms);
+        return build_ms + made_ms;
+    }
     /// The mean over the kinds of rays, each as important as another.
     double mean_ns() const;
     std::uint64_t rays() const;

@@ -32,6 +32,7 @@ class Quoted {
         answers();
         best();
         pairs();
+        noise();
         worth();
         growths();
     }
@@ -63,7 +64,7 @@ class Quoted {
             scenes.insert(row.scene);
             structures.insert(row.structure);
             rows += row.stands();
-            rays += row.rays();
+            if (!row.is_peer) rays += row.rays();
             largest = std::max(largest, row.triangles);
         }
         whole("scenes", scenes.size());
@@ -149,6 +150,24 @@ class Quoted {
             if (kd && bvh) builds.push_back(kd->build_ms / bvh->build_ms);
         }
         factor("kd_build_over_bvh", median(std::move(builds)), 1);
+    }
+
+    /// bvh-parallel makes the tree of bvh-binned, and each is timed by itself: what lies between
+    /// their rays is noise.
+    void noise() {
+        std::vector<double> twins;
+        std::uint64_t apart = 0;
+        for (const Block block : blocks(comparison_)) {
+            const ComparedRow *const one = find(block, "bvh-binned"), *const other = find(
+                                                                          block, "bvh-parallel");
+            if (!one || !other || !(one->mean_ns() > 0.0)) continue;
+            const double ratio = other->mean_ns() / one->mean_ns();
+            twins.push_back(ratio);
+            apart += std::max(ratio, 1.0 / ratio) > 1.15;
+        }
+        word("noise_apart", double(apart), fmt::format("{} of {}", apart, twins.size()));
+        factor("noise_least", twins.empty() ? unknown : std::ranges::min(twins));
+        factor("noise_most", twins.empty() ? unknown : std::ranges::max(twins));
     }
 
     /// What is worth its build.

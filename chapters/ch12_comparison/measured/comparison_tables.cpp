@@ -260,8 +260,12 @@ Table robust_table(const Comparison& comparison) {
         const auto beside = factors(large, name);
         if (beside.empty()) continue;
         const Factor& most = worst(beside);
+        const auto gave_up = std::ranges::count_if(large, [&](Block block) {
+            const auto row = std::ranges::find(block, name, &ComparedRow::structure);
+            return row != block.end() && !row->stands() && !row->gave_up.starts_with("not tried");
+        });
         table.row({name, number(median_factor(beside), 2), number(most.factor, 1), most.scene,
-                   with_commas(large.size() - beside.size())});
+                   with_commas(static_cast<std::uint64_t>(gave_up))});
     }
     return table;
 }
