@@ -297,8 +297,12 @@ void Svg::end_group() {
 std::string Svg::document(std::string_view figure_id) const {
     if (open_groups_ != 0) throw std::logic_error("svg: begin_group without end_group");
     std::string result = svg_opening(figure_id, title_, width_, height_);
+    const std::string id = xml_escaped(figure_id);
     for (const char c : body_)
-        result += c == figure_id_mark ? xml_escaped(figure_id) : std::string(1, c);
+        if (c == figure_id_mark)
+            result += id;
+        else
+            result += c;
     return result + "</svg>\n";
 }
 
