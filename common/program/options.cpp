@@ -9,8 +9,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <string_view>
 #include <thread>
@@ -41,6 +44,14 @@ void parse_size(std::string_view text, Options& options) {
             fmt::format("--size {}: give WIDTHxHEIGHT, each from 1 to {}", text, max_side));
     options.width = static_cast<int>(*width);
     options.height = static_cast<int>(*height);
+}
+
+/// What was asked for stands on standard output, whole; else that is told.
+[[noreturn]] void end_having_told() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw output_error(
+            fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+    std::exit(static_cast<int>(ExitCode::ok));
 }
 
 }  // namespace
@@ -95,7 +106,8 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {
-        std::exit(app.exit(help));
+        app.exit(help);
+        end_having_told();
     } catch (const CLI::ExtrasError&) {
         const std::vector<std::string> unknown = app.remaining();
         throw usage_error(
@@ -118,7 +130,7 @@ void list_scenes_if_asked(const Options& options) {
                    recipe.default_size ? with_commas(recipe.default_size) : "",
                    recipe.max_size ? with_commas(recipe.max_size) : "", std::string(recipe.about)});
     table.print();
-    std::exit(std::fflush(stdout) == 0 ? 0 : static_cast<int>(ExitCode::bad_output));
+    end_having_told();
 }
 
 Options parse_options(int argc, char** argv, const ProgramInfo& program,

@@ -768,8 +768,9 @@ TEST_CASE(
 }
 
 TEST_CASE("what cannot be printed is an error") {
-    for (const char* options : {"--structure list", "--scene soup:50 --size 4x3 --repeat 1",
-                                "--scene soup:50 --size 4x3 --repeat 1 --json -"}) {
+    for (const char* options :
+         {"--structure list", "--scene list", "--help", "--scene soup:50 --size 4x3 --repeat 1",
+          "--scene soup:50 --size 4x3 --repeat 1 --json -"}) {
         const Ended ended = run(lab.with(options), "/dev/full");
         CHECK(ended.code == 4);
         CHECK(ended.err.find("lab: cannot write to standard output: No space left on device\n") !=
