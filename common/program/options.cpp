@@ -149,7 +149,7 @@ Options parse_options(int argc, char** argv, const ProgramInfo& program,
                  "fewer sizes and rounds: minutes instead of a quarter of an hour");
     app.add_flag("--counts", options.counts,
                  "the full run's counts, without its times: numbers.json and tables; with --quick "
-                 "those that take less than a minute")
+                 "those that take seconds")
         ->excludes("--small");
     app.add_option("--out", options.out,
                    "directory for pictures, charts, tables, numbers and results")

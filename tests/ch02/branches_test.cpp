@@ -10,7 +10,7 @@
 namespace space::ch02 {
 namespace {
 
-constexpr int pairs_each = 10'000;
+constexpr int rays_each = 10'000;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ TEST_CASE("the three orders give the same answer, bit for bit, on every class of
     int hits = 0, different = 0, interval_ends = 0;
     for (const TriangleInput& input : triangle_inputs()) {
         Pcg32 random(903);
-        for (int i = 0; i < pairs_each; ++i) {
+        for (int i = 0; i < rays_each; ++i) {
             auto [ray, triangle] = make_pair(input, random);
             const auto first = CheapFirst::intersect(ray, triangle);
             const auto compare = [&] {
@@ -40,7 +40,7 @@ TEST_CASE("the three orders give the same answer, bit for bit, on every class of
             interval_ends += compare();
         }
     }
-    CHECK(hits > pairs_each);
+    CHECK(hits > rays_each);
     CHECK(different == 0);
     CHECK(interval_ends == 0);
 }
@@ -71,7 +71,7 @@ TEST_CASE("the three orders hit corners and edges, and nothing beside them, behi
 TEST_CASE("the orders decide as the chapter's test in float does where nothing is near a border") {
     Pcg32 random(904);
     int hits = 0, different = 0;
-    for (int i = 0; i < pairs_each; ++i) {
+    for (int i = 0; i < rays_each; ++i) {
         const auto [ray, triangle] = make_pair(triangle_inputs()[0], random);
         const auto ours = CheapFirst::intersect(ray, triangle),
                    theirs = MollerTrumboreFloat::intersect(ray, triangle);
@@ -79,7 +79,7 @@ TEST_CASE("the orders decide as the chapter's test in float does where nothing i
         different += ours.has_value() != theirs.has_value();
         if (ours && theirs) different += std::abs(ours->t - theirs->t) > 1e-5f * theirs->t;
     }
-    CHECK(hits > pairs_each / 20);
+    CHECK(hits > rays_each / 20);
     CHECK(different == 0);
 }
 

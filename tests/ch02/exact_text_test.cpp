@@ -9,7 +9,7 @@
 namespace space::ch02 {
 namespace {
 
-const Text page("chapters/ch02_intersection_tests/exact.dox");
+const Text exact_page("chapters/ch02_intersection_tests/exact.dox");
 
 /// Which stage decided last.
 struct LastStage {
@@ -23,9 +23,9 @@ TEST_CASE("the ray of the first example hits the first triangle, and double says
     const auto tuple = [](const Vector3& v) {
         return fmt::format("({:.0f}, {:.0f}, {:.0f})", v.x, v.y, v.z);
     };
-    page.check_says("origin = " + tuple(example_ray.origin));
-    page.check_says("direction = " + tuple(example_ray.direction));
-    page.check_says(" b = " + tuple(example_b));
+    exact_page.check_says("origin = " + tuple(example_ray.origin));
+    exact_page.check_says("direction = " + tuple(example_ray.direction));
+    exact_page.check_says(" b = " + tuple(example_b));
     const SignExample example = sign_example();
     const auto& [in_float, in_double, exact] = example.rows;
     CHECK(exact.volume == 1.0);
@@ -61,19 +61,19 @@ TEST_CASE("the filter's example: a ray through an edge is passed on, and one bes
     const auto s = [&] { return Double3(ray.origin) - a; };
     const auto v = [&] { return glm::dot(glm::cross(s(), e), d); };
     const FilteredExact::Sizes size = FilteredExact::sizes(d, e, f, s());
-    page.check_says(formula(fmt::format("|D|_1 = {}", size.d)) + ", " +
-                    formula(fmt::format("|e|_1 = |f|_1 = {}", size.e1)));
-    page.check_says(formula(fmt::format("|s|_1 = {}", size.s)));
+    exact_page.check_says(formula(fmt::format("|D|_1 = {}", size.d)) + ", " +
+                          formula(fmt::format("|e|_1 = |f|_1 = {}", size.e1)));
+    exact_page.check_says(formula(fmt::format("|s|_1 = {}", size.s)));
     const double bound = FilteredExact::outside_bound(size);
-    page.check_says(
+    exact_page.check_says(
         fmt::format("5\\,(16 + 48) = {:.0f}\\,u_{{53}} = {}", bound * 0x1p53, power(bound)));
     const double det = glm::dot(glm::cross(d, f), e), u = glm::dot(glm::cross(d, f), s());
-    page.check_says(
+    exact_page.check_says(
         fmt::format("\\f$\\mathit{{det}} = {}\\f$, \\f$u = {}\\f$, \\f$v = {}\\f$", det, u, v()));
     CHECK(FilteredExact::outside(u, det) == -12.0);
-    page.check_says("\\mathrm{outside}(12, 48) = 12 - 24 = -12");
+    exact_page.check_says("\\mathrm{outside}(12, 48) = 12 - 24 = -12");
     CHECK(FilteredExact::outside(v(), det - u) == 0.0);
-    page.check_says("\\mathrm{outside}(0, 36) = 18 - 18 = 0");
+    exact_page.check_says("\\mathrm{outside}(0, 36) = 18 - 18 = 0");
     LastStage last;
     CHECK(FilteredExact::intersect(ray, triangle, last));
     CHECK(last.stage == Stage::integers);
@@ -81,8 +81,8 @@ TEST_CASE("the filter's example: a ray through an edge is passed on, and one bes
     ray.origin.y = std::nextafter(-1.0f, 0.0f);
     CHECK(ray.origin.y == -1.0f + 0x1p-24f);
     CHECK(v() == 12 * 0x1p-24);
-    page.check_says("v = 12 \\cdot 2^{-24} = " + power(v()));
-    page.check_says("two million times");
+    exact_page.check_says("v = 12 \\cdot 2^{-24} = " + power(v()));
+    exact_page.check_says("two million times");
     CHECK(v() / bound > 1.95e6);
     CHECK(v() / bound < 2.05e6);
     CHECK(FilteredExact::intersect(ray, triangle, last));
@@ -93,19 +93,19 @@ TEST_CASE("the toy's error of a sum and of a product is found, and nothing is lo
     const std::int64_t a = 56'100, b = 789, h = toy(a + b), b_part = toy(h - a),
                        a_part = toy(h - b_part), l = toy(toy(a - a_part) + toy(b - b_part));
     CHECK(h + l == a + b);
-    page.check_says(fmt::format(
+    exact_page.check_says(fmt::format(
         "{} is {}. {}; then {} and {};", formula(decimal(a, 2) + " + " + decimal(b, 4)),
         decimal(a + b, 4), formula("h = " + decimal(h, 2)),
         formula(fmt::format("b' = {} - {} = {}", decimal(h, 2), decimal(a, 2), decimal(b_part, 2))),
         formula(fmt::format("a' = {} - {} = {}", decimal(h, 2), decimal(b_part, 2),
                             decimal(a_part, 2)))));
-    page.check_says(formula(fmt::format("l = {} + ({} - {}) = {}", decimal(a - a_part, 0),
-                                        decimal(b, 4), decimal(b_part, 2), decimal(l, 4))));
+    exact_page.check_says(formula(fmt::format("l = {} + ({} - {}) = {}", decimal(a - a_part, 0),
+                                              decimal(b, 4), decimal(b_part, 2), decimal(l, 4))));
     const std::int64_t product = 123 * 456;
-    page.check_says(fmt::format("{} becomes {}",
-                                formula("1.23 \\cdot 4.56 = " + decimal(product, 4)),
-                                formula(fmt::format("{} - {}", decimal(toy(product), 2),
-                                                    decimal(toy(product) - product, 4)))));
+    exact_page.check_says(fmt::format("{} becomes {}",
+                                      formula("1.23 \\cdot 4.56 = " + decimal(product, 4)),
+                                      formula(fmt::format("{} - {}", decimal(toy(product), 2),
+                                                          decimal(toy(product) - product, 4)))));
 }
 
 }  // namespace space::ch02

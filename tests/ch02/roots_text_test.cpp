@@ -8,7 +8,7 @@
 namespace space::ch02 {
 namespace {
 
-const Text page("chapters/ch02_intersection_tests/roots.dox");
+const Text roots_page("chapters/ch02_intersection_tests/roots.dox");
 
 double relative(double computed, double exact) {
     return (computed - exact) / exact;
@@ -33,11 +33,11 @@ TEST_CASE("the guess is off by as much as the page says, before and after the co
         least = std::min(least, relative(double{root_guess(a)}, root));
     }
     CHECK(uncorrected_least >= 0.0);
-    page.check_says(fmt::format(
+    roots_page.check_says(fmt::format(
         "never too small, and {:.1f} % too large at \\f$a = 2\\f$ (it says {})",
         100.0 * uncorrected_most,
         std::bit_cast<float>((1u << 29) - (1u << 22) + (std::bit_cast<std::uint32_t>(2.0f) >> 1))));
-    page.check_says(fmt::format(
+    roots_page.check_says(fmt::format(
         "`0x4C000`, {:.3f} in units of \\f$m\\f$, which leaves at most {:.1f} % on both sides",
         0x4C000 * 0x1p-23, 100.0 * std::max(most, -least)));
 }
@@ -46,7 +46,7 @@ TEST_CASE("the rounds for 2 are those of the page") {
     const double root = std::sqrt(2.0);
     const double guess{root_guess(2.0f)}, first{newton_root<1>(2.0f)}, second{newton_root<2>(2.0f)},
         third{newton_root<3>(2.0f)};
-    page.check_says(fmt::format(
+    roots_page.check_says(fmt::format(
         "the guess {:.4f} is {:.1f} % too large; then {:.5f} ({} too large), {:.8f} ({}), {:.8f}:",
         guess, 100.0 * relative(guess, root), first, formula(power(relative(first, root), 0)),
         second, formula(power(relative(second, root), 1)), third));
@@ -54,7 +54,7 @@ TEST_CASE("the rounds for 2 are those of the page") {
 }
 
 TEST_CASE("what the trick does not know comes out as the page says") {
-    page.check_says(fmt::format(
+    roots_page.check_says(fmt::format(
         "The guess for 0 is about {}, and three rounds make it {}; the root of \\f$-0\\f$ comes "
         "out "
         "as {}, of \\f$-1\\f$ as {}, of infinity as NaN.",

@@ -31,6 +31,24 @@ Watcher delays(std::uint64_t seed) {
     return watcher;
 }
 
+/// So many builds by each method, on 1 to 16 threads.
+void check_delayed(std::uint64_t builds) {
+    const std::vector<Triangle> triangles = scenes::soup(60, 0.1f, 1);
+    const BvhNodes<3> expected = BinnedBuilder::build<3>(triangles);
+    for (const ParallelBuilder& builder : parallel_builders()) {
+        const Watchdog watchdog(300);
+        std::string fault;
+        std::uint64_t i = 0;
+        for (; i < builds && fault.empty(); ++i) {
+            Watcher watcher = delays(i);
+            const auto threads = static_cast<unsigned>(1 + i % 16);
+            fault = difference(builder.build(triangles, {}, threads, watcher), expected);
+        }
+        INFO(builder.name << ", build " << i << ": " << fault);
+        CHECK(fault.empty());
+    }
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -40,7 +58,7 @@ TEST_CASE(
         if (!builder.name.starts_with("queue (")) continue;
         const Watchdog watchdog(300);  // anew for each: a machine with other work is slow, too
         std::atomic<int> too_early{0};
-        for (std::uint64_t i = 0; i < sized(300u, 20u); ++i) {
+        for (std::uint64_t i = 0; i < sized(100u, 20u); ++i) {
             std::atomic<std::size_t> missing{triangles.size()};
             Watcher watcher = delays(i);
             watcher.chosen = [&, delay = watcher.chosen](const BvhChosen<3>& event) {
@@ -55,23 +73,12 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a thousand builds by each method, on 1 to 16 threads that are delayed at random, end, and "
+    "hundreds of builds by each method, on 1 to 16 threads that are delayed at random, end, and "
     "with one tree") {
-    const std::vector<Triangle> triangles = scenes::soup(60, 0.1f, 1);
-    const BvhNodes<3> expected = BinnedBuilder::build<3>(triangles);
-    const std::uint64_t builds = sized(1000, 40);
-    for (const ParallelBuilder& builder : parallel_builders()) {
-        const Watchdog watchdog(300);
-        std::string fault;
-        std::uint64_t i = 0;
-        for (; i < builds && fault.empty(); ++i) {
-            Watcher watcher = delays(i);
-            const auto threads = static_cast<unsigned>(1 + i % 16);
-            fault = difference(builder.build(triangles, {}, threads, watcher), expected);
-        }
-        INFO(builder.name << ", build " << i << ": " << fault);
-        CHECK(fault.empty());
-    }
+    check_delayed(sized(200, 32));
+}
+TEST_CASE("a thousand builds by each method", "[.big]") {
+    check_delayed(1'000);
 }
 
 }  // namespace space

@@ -101,7 +101,7 @@ def run(script):
     return chromium.execute_script(script)
 
 
-def wait(script, seconds=20):
+def wait(script, seconds=60):  # where nothing is wrong it takes a moment, on a machine with other work some seconds
     try:
         WebDriverWait(chromium, seconds, poll_frequency=0.05).until(lambda _: run("return " + script))
         return True
@@ -109,11 +109,25 @@ def wait(script, seconds=20):
         return False
 
 
+standing = {}
+
+
 def window(width, mode="light", media=""):
+    """Only what changes is told: a page of a megabyte is laid out anew for each of the two."""
     height = 844 if width < 500 else 900
-    chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                             dict(width=width, height=height, deviceScaleFactor=1, mobile=width < 500))
-    chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", dict(media=media, features=[dict(name="prefers-color-scheme", value=mode)]))
+    if standing.get("width") != width:
+        chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                 dict(width=width, height=height, deviceScaleFactor=1, mobile=width < 500))
+    if standing.get("media") != (mode, media):
+        chromium.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                 dict(media=media, features=[dict(name="prefers-color-scheme", value=mode)]))
+    standing.update(width=width, media=(mode, media))
+
+
+def leave_page():
+    """So that the one that stood is not laid out once more for the next one's window."""
+    chromium.get("about:blank")
+    standing.clear()
 
 
 def open_page(name):
@@ -209,7 +223,7 @@ def look_at_page(name, width, mode):
 def look_at_paper(name):
     """From a dark page: light colours; nothing to press, nothing that scrolls, every sentence of the steps."""
     window(1280, "dark", "print")
-    if not wait("document.documentElement.classList.contains('light-mode')", 5):
+    if not wait("document.documentElement.classList.contains('light-mode')"):
         fault(name, "is printed dark")
     on_paper = run(printed)
     if on_paper != dict(mode="light-mode", paper="rgb(255, 255, 255)", pressed=0, hidden=0, scrolled=0):
@@ -217,21 +231,23 @@ def look_at_paper(name):
     for text in run(pale)["found"]:
         fault(name, f"on paper is hard to read: {text}")
     window(1280, "dark")
-    if not wait("document.documentElement.classList.contains('dark-mode')", 5):
+    if not wait("document.documentElement.classList.contains('dark-mode')"):
         fault(name, "is not dark again after printing")
 
 
 def look_at_listings(name):
     """On laptops and wider screens every line of a chapter's code can be read without scrolling."""
-    for width in (1100, 1280, 1450, 1920):
+    if not run("return document.querySelectorAll('.textblock .fragment').length"):
+        return
+    for width in (1280, 1100, 1450, 1920):
         window(width)
         cut = run("return [...document.querySelectorAll('.textblock .fragment')].filter((f) => f.scrollWidth > f.clientWidth).length")
         if cut:
             fault(name, f"at {width} px {cut} listings are cut")
 
 
-# Drawings with steps: every step by its button and by its key shows its own groups and its own sentence, and nothing sticks
-# out. Keys move the drawing in view, and no other.
+# Drawings with steps: every step by its button and by its key shows its own groups and its own sentence (back again on a
+# phone alone), and nothing sticks out. Keys move the drawing in view, and no other.
 walk = """
     const list = document.querySelectorAll("ol.steps")[NUMBER], bar = list.previousElementSibling;
     const drawing = bar.previousElementSibling, seen = (element) => getComputedStyle(element).visibility === "visible";
@@ -244,7 +260,7 @@ walk = """
             height: list.getBoundingClientRect().bottom - drawing.getBoundingClientRect().top, wide: first_seen ? sticking() : []});
     const [first, back, forth, last] = bar.querySelectorAll("button");
     const press = (button) => { button.click(); return look(button === forth); }, seconds = [...list.children].slice(1);
-    return {start: look(true), next: seconds.map(() => press(forth)), back: seconds.map(() => press(back)).reverse(),
+    return {start: look(true), next: seconds.map(() => press(forth)), back: BACK_AGAIN ? seconds.map(() => press(back)).reverse() : [],
             last: press(last), first: press(first)};
     """.replace("STICKING_OUT", sticking_out.replace("ELEMENTS", "list.parentElement.querySelectorAll('*')"))
 state = "const list = document.querySelectorAll('ol.steps')[NUMBER], bar = list.previousElementSibling;" \
@@ -289,11 +305,12 @@ def walk_steps(name, width, number, groups, tells):
         for wide in now["wide"]:
             fault(name, f"at {width} px, step {step}, sticks out: {wide}")
 
-    walked = script(walk)
+    walked = script(walk.replace("BACK_AGAIN", "true" if width < 500 else "false"))
     look(walked["start"], 0, "loading")
     for step in range(1, last + 1):
         look(walked["next"][step - 1], step, "Next")
-        look(walked["back"][step - 1], step - 1, "Back")
+        if walked["back"]:
+            look(walked["back"][step - 1], step - 1, "Back")
         steps_walked += 1
     look(walked["last"], last, "Last")
     look(walked["first"], 0, "First")
@@ -318,6 +335,7 @@ def walk_steps(name, width, number, groups, tells):
 
 
 for name in book + samples:
+    leave_page()
     window(390, "dark")
     open_page(name)
     look_at_page(name, 390, "dark")
@@ -327,7 +345,7 @@ for name in book + samples:
     if name in book and name.startswith("ch"):
         look_at_paper(name)
     window(1280, "light")  # the page that stands follows, as it does on a desk
-    if not wait("document.documentElement.classList.contains('light-mode')", 5):
+    if not wait("document.documentElement.classList.contains('light-mode')"):
         fault(name, "does not follow a system that turns light")
     look_at_page(name, 1280, "light")
     for number, drawing in enumerate(stepped):

@@ -1,6 +1,7 @@
 /// Are the counts in figures/measured those that the program gives now? Runs a chapter's program
 /// with --counts --quick and compares every count and every table of counts with the committed
-/// ones: a line per difference. Run   counts_check ROOT PROGRAM OUT
+/// ones: a line per difference. Run   counts_check ROOT PROGRAM OUT [all]
+/// With `all` the program counts everything, which takes minutes.
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 
@@ -31,12 +32,13 @@ std::map<std::string, std::string> counts_in(const fs::path& file, const std::st
 }
 
 int check(int argc, char** argv) {
-    if (argc != 4) throw usage_error("expected ROOT PROGRAM OUT");
+    const bool all = argc == 5 && std::string(argv[4]) == "all";
+    if (argc != 4 && !all) throw usage_error("expected ROOT PROGRAM OUT [all]");
     const fs::path root = argv[1], program = argv[2], out = argv[3];
     const std::string chapter = program.filename().string().substr(0, 4);
     fs::remove_all(out);
-    const std::string command = fmt::format("\"{}\" --counts --quick --out \"{}\" > /dev/null",
-                                            program.string(), out.string());
+    const std::string command = fmt::format("\"{}\" --counts {} --out \"{}\" > /dev/null",
+                                            program.string(), all ? "" : "--quick", out.string());
     if (std::system(command.c_str()) != 0) throw input_error(fmt::format("{} failed", command));
     const fs::path measured = root / "figures/measured" / (chapter + "_numbers.json");
     std::ptrdiff_t compared = 0, wrong = 0, left_out = 0;

@@ -58,6 +58,8 @@ inline FastEffort fast_effort(const Options& options) {
         effort.aimed = {"icosphere:4"};
         effort.aimed_rays = 2'000;
     }
+    if (options.counts && options.quick)  // what takes seconds
+        effort.aimed = {"icosphere:4"}, effort.aimed_rays = 2'000;
     if (options.small || options.counts) effort.rounds = 0;
     return effort;
 }
