@@ -15,8 +15,10 @@ Answer placing_orders(const State& state);
 Answer plane_costs(const State& state);
 Answer point_searches(const State& state);
 Answer quadtree_points(const State& state);
+Answer refits(const State& state);
 Answer rotations(const State& state);
 Answer shared_edge(const State& state);
+Answer turned_mesh(const State& state);
 
 std::span<const LiveFigure> live_figures() {
     static constexpr std::array all{
@@ -27,7 +29,9 @@ std::span<const LiveFigure> live_figures() {
         LiveFigure{"fig_06_15", quadtree_points}, LiveFigure{"fig_07_17", bvh_walk},
         LiveFigure{"fig_08_11", build_methods},   LiveFigure{"fig_08_15", build_steps},
         LiveFigure{"fig_09_04", placing},         LiveFigure{"fig_09_05", placing_orders},
-        LiveFigure{"fig_09_17", rotations}};
+        LiveFigure{"fig_09_17", rotations},       LiveFigure{"fig_09_19", refits},
+        LiveFigure{"fig_12_14", turned_mesh},
+    };
     return all;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace space::ch08 {
@@ -53,10 +54,8 @@ Svg drawn_methods(const TaskGraph& graph, const std::array<DrawnSchedule, 4>& sc
     constexpr double width = 640;
     const unsigned cores = schedules[0].schedule.cores;
     const double row = cores <= 8 ? 18 : 12, height = 35 + row * cores;
-    Svg svg(fmt::format("Who works when while four methods build the same tree on {}",
-                        cores == 1   ? "one core"
-                        : cores == 4 ? "four cores"
-                                     : fmt::format("{} cores", cores)),
+    Svg svg(fmt::format("Who works when while four methods build the same tree on {} cores",
+                        cores == 4 ? "four" : std::to_string(cores)),
             660, 44 + 4 * height);
     if (cores <= 4)
         draw_core_names(svg, at(120, 6), cores);

@@ -19,8 +19,7 @@ using Doing = CoreRun::Doing;
 struct CoreWords {
     std::string_view cores, share;
 };
-constexpr std::array<CoreWords, 8> core_words{{{"one core", "all"},
-                                               {"two", "half"},
+constexpr std::array<CoreWords, 7> core_words{{{"two", "half"},
                                                {"three", "a third"},
                                                {"four", "a quarter"},
                                                {"five", "a fifth"},
@@ -28,7 +27,7 @@ constexpr std::array<CoreWords, 8> core_words{{{"one core", "all"},
                                                {"seven", "a seventh"},
                                                {"eight", "an eighth"}}};
 const CoreWords& words_of(const Schedule& schedule) {
-    return core_words.at(schedule.cores - 1);
+    return core_words.at(schedule.cores - 2);
 }
 
 /// A simulated build, moment after moment.
@@ -135,14 +134,12 @@ void StealingPlay::draw(Svg& svg) const {
     for (unsigned core = 0; core < schedule_.cores; ++core)
         svg.text(at(10, 345 + 30.0 * core), fmt::format("core {}", core),
                  {.anchor = Anchor::start, .ink = core_ink(core), .bold = true});
-    std::string at_end = fmt::format("All {} nodes stand after {} units of time",
-                                     graph_.nodes.size(), svg_number(schedule_.makespan));
-    if (schedule_.cores > 1)
-        at_end += fmt::format("; one core would take {}, and {} at best {} of that",
-                              svg_number(graph_.total()), words_of(schedule_).cores,
-                              words_of(schedule_).share);
     draw_moments(
-        svg, schedule_, [&](const CoreRun& run) { return tells(run); }, at_end + ".",
+        svg, schedule_, [&](const CoreRun& run) { return tells(run); },
+        fmt::format("All {} nodes stand after {} units of time; one core would take {}, and {} "
+                    "at best {} of that.",
+                    graph_.nodes.size(), svg_number(schedule_.makespan), svg_number(graph_.total()),
+                    words_of(schedule_).cores, words_of(schedule_).share),
         [&](double time) {
             draw_tree(svg, time);
             draw_time(svg, time);
@@ -152,11 +149,9 @@ void StealingPlay::draw(Svg& svg) const {
 }  // namespace
 
 Svg drawn_stealing(const TaskGraph& graph, const Schedule& schedule) {
-    Svg svg(schedule.cores == 1
-                ? "A tree of 16 segments, built by one core, step by step"
-                : fmt::format("A tree of 16 segments, built by {} cores that steal work from each "
-                              "other, step by step",
-                              words_of(schedule).cores),
+    Svg svg(fmt::format("A tree of 16 segments, built by {} cores that steal work from each other, "
+                        "step by step",
+                        words_of(schedule).cores),
             670, 336 + 30.0 * schedule.cores);
     StealingPlay(graph, schedule).draw(svg);
     return svg;

@@ -14,7 +14,7 @@ inline constexpr ParallelMethod stealing_method{
 inline constexpr unsigned stealing_cores = 3;
 inline constexpr double stealing_cost = 2.0;
 
-/// A tree of 16 segments, built by so many cores, up to eight, that steal. Its levels, at most
+/// A tree of 16 segments, built by two to eight cores that steal. Its levels, at most
 /// seven, stand above the bars of the cores.
 Svg drawn_stealing(const TaskGraph& graph, const Schedule& schedule);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace space::live {
 
@@ -22,7 +23,7 @@ Answer build_methods(const State& state) {
         return value;
     };
     SchedulingCosts costs = ch08::formula_costs;
-    const double cores = slider("cores", "Cores", 4.0, 1.0, 16.0, 1.0);
+    const double cores = std::round(slider("cores", "Cores", 4.0, 2.0, 16.0, 1.0));
     costs.thread_start = 1e3 * slider("start", "To start a thread, µs", 15.0, 0.0, 200.0, 5.0);
     costs.lock = slider("lock", "To hold the queue's lock, ns", 100.0, 0.0, 2'000.0, 50.0);
     costs.steal = 1e3 * slider("steal", "To steal, µs", 2.0, 0.0, 50.0, 1.0);

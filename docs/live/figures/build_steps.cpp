@@ -25,13 +25,13 @@ Answer build_steps(const State& state) {
         return static_cast<unsigned>(value);
     };
     ParallelMethod method = ch08::stealing_method;
-    const unsigned cores = whole("cores", "Cores", ch08::stealing_cores, 1, 8);
+    const unsigned cores = whole("cores", "Cores", ch08::stealing_cores, 2, 8);
     const double steal = whole("steal", "Time to steal", ch08::stealing_cost, 0, 20);
-    method.large = whole("large", "All cores together make nodes of more segments than",
-                         double(method.large), 1, 16);
-    method.chunk = whole("chunk", "Segments in a part of such a node", double(method.chunk), 1, 16);
     method.grain = whole("grain", "One core makes all below nodes of at most so many segments",
                          double(method.grain), 1, 16);
+    method.chunk = whole("chunk", "Segments in a part of such a node", double(method.chunk), 1, 16);
+    method.large = whole("large", "All cores together make nodes of more segments than",
+                         double(method.large), 1, 16);
     const std::size_t row = state.choice("row", 0, rows);
     const TaskGraph graph = row == 0 ? ch08::lopsided_graph() : ch08::mirrored_graph();
     const Schedule schedule = simulate(graph, method, cores, {.steal = steal});

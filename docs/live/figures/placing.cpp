@@ -21,25 +21,28 @@ double wide_enough(double scale) {
     return std::abs(scale) >= 0.1 ? scale : std::copysign(0.1, scale);
 }
 
+/// Handles stand about the origin of the placed house: to its right and above, by where the axis is
+/// turned to; to its right and below, by the scales.
 Placing placed_by_hand(const State& state, const PlacedBy& first, const ch09::PlacedView& view) {
     PlacedBy by = first;
     const Double2 origin(view({0, 0})), unit(view.scale, -view.scale);
-    by.translation = state.point("T", first.translation, -6.0, 6.0);
+    by.translation = state.point("T", first.translation, -6.0, 6.5);
     by.translation = glm::clamp(by.translation, view.low, view.low + view.size);
-    const Double2 turned = state.point("R", {first.cosine, first.sine}, -2.0, 2.0);
-    const double length = std::sqrt(turned.x * turned.x + turned.y * turned.y);
-    by.cosine = length > 0.01 ? turned.x / length : 1.0;
-    by.sine = length > 0.01 ? turned.y / length : 0.0;
-    by.scale = state.point("S", first.scale, -2.0, 2.0);
+    const Double2 towards = state.point("R", {first.cosine, first.sine}, -2.0, 2.0);
+    const double length = std::sqrt(towards.x * towards.x + towards.y * towards.y);
+    by.cosine = length > 0.01 ? towards.x / length : 1.0;
+    by.sine = length > 0.01 ? towards.y / length : 0.0;
+    by.scale = state.point("S", first.scale, -4.0, 4.0);
     by.scale = {wide_enough(by.scale.x), wide_enough(by.scale.y)};
+    const Double2 placed(view(by.translation));
     return {by,
             {{"T", "T: where the house's origin goes", by.translation, origin, unit},
-             {"R",
-              "R: where its x axis turns to",
-              {by.cosine, by.sine},
-              Double2(view(by.translation)),
-              1.5 * unit},
-             {"S", "S: the scales along x and y", by.scale, origin, unit}}};
+             {"R", "R: where its x axis turns to", towards, placed, 1.5 * unit},
+             {"S",
+              "S: the scales, of x to the right and of y downwards",
+              by.scale,
+              placed,
+              {unit.x, -unit.y}}}};
 }
 
 std::string written(const Double2& p) {
