@@ -56,7 +56,7 @@ class Stage {
         return at(352 + slot() * layout_[node].x,
                   32 + std::min(92.0, 276 / std::max(levels_, 1.0)) * layout_[node].y);
     }
-    double slot() const { return std::min(46.0, 322 / slots_); }
+    double slot() const { return 322 / slots_; }
     /// Wide trees have small nodes.
     double shrunk(double length) const { return length * std::min(1.0, slot() / 34); }
 
@@ -78,12 +78,12 @@ std::string Stage::told_leaf(const Turn& turn) const {
     if (turn.set.empty()) return "Nothing lies in this cell: an empty leaf.";
     const std::string set = plain_set(story_, turn.set);
     const KdTreeConfig& config = story_.config;
-    std::string why = config.rule == KdTreeConfig::Rule::sah
-                          ? fmt::format("No plane is cheaper than to test {}", set)
-                          : fmt::format("No plane whose turn it is parts {} well enough", set);
-    if (turn.set.size() <= config.max_leaf_size) why = set + " is few enough";
+    const bool by_cost = config.rule == KdTreeConfig::Rule::sah;
+    std::string why = by_cost ? fmt::format("No plane is cheaper than to test {}", set)
+                              : fmt::format("No plane in turn parts {} well enough", set);
     if (config.max_depth && turn.depth >= *config.max_depth)
         why = fmt::format("No cell may be deeper than that of {}", set);
+    if (!by_cost && turn.set.size() <= config.max_leaf_size) why = set + " is few enough";
     return why + ": a leaf, which names what is in its cell.";
 }
 
@@ -209,14 +209,16 @@ void Stage::draw_nodes(Svg& svg) const {
         if (turn.split)
             name = story_.plane_names.empty() ? std::string("*") + "xy"[turn.split->axis] + "*"
                                               : "*" + heinonen_plane_name(story_, turn.node) + "*";
-        const double half = shrunk(std::max(18.0, 9.0 * double(letters.size())));
+        const double needed = std::max(18.0, 9.0 * double(letters.size())),
+                     half = std::min(shrunk(needed), 0.5 * slot() - 1),
+                     size = 24 * (turn.split ? shrunk(1) : half / needed);
         const auto node = [&](Ink ink) {
             const Style style{.stroke = ink, .fill = Ink::paper};
             if (turn.split)
                 svg.circle(centre, shrunk(20), style);
             else
                 svg.rect(moved(centre, -half, -shrunk(18)), at(2 * half, shrunk(36)), style);
-            svg.text(moved(centre, 0, shrunk(8)), name, {.ink = ink, .size = shrunk(24)});
+            svg.text(moved(centre, 0, shrunk(8)), name, {.ink = ink, .size = size});
         };
         svg.begin_step(of_turn_[i].chosen, of_turn_[i].placed);
         node(Ink::green);

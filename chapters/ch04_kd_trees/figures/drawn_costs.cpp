@@ -165,7 +165,7 @@ void draw_plane(Svg& svg, const Plot& plot, float plane, const Sweep& whole, con
     const auto x = static_cast<double>(plane);
     svg.line(plot(x, plot.least), plot(x, plot.top), {.stroke = Ink::green});
     const bool right = plot.along * x < 6.0 * scale;
-    double y = -34;
+    double y = -28;
     for (const auto& [sweep, ink] : {std::pair{&whole, Ink::vermillion}, {&clipped, Ink::blue}}) {
         const auto [below, above] = sweep->counts(plane);
         const double cost = sweep->cost(plane, plane);
@@ -174,7 +174,7 @@ void draw_plane(Svg& svg, const Plot& plot, float plane, const Sweep& whole, con
             moved(plot(x, plot.least), right ? 10 : -10, y),
             fmt::format("{} below, {} above: {:.2f}", below, above, cost),
             {.anchor = right ? Anchor::start : Anchor::end, .ink = ink, .size = 17, .halo = true});
-        y += 22;
+        y += 19;
     }
 }
 
@@ -209,9 +209,13 @@ DrawnCosts drawn_costs(const CostScene& scene) {
     draw_curve(svg, plot, whole, Ink::vermillion, true);
     draw_curve(svg, plot, clipped, Ink::blue, false);
     if (scene.plane) draw_plane(svg, plot, *scene.plane, whole, clipped);
-    return {.drawing = std::move(svg),
-            .tells = fmt::format("By boxes of parts {}; by boxes of whole segments {}.",
-                                 best_of(clipped), best_of(whole))};
+    std::string tells = fmt::format("By boxes of parts {}; by boxes of whole segments {}.",
+                                    best_of(clipped), best_of(whole));
+    if (scene.plane)
+        tells += fmt::format(" The plane at {:.2f} costs {:.2f} and {:.2f}.", *scene.plane,
+                             clipped.cost(*scene.plane, *scene.plane),
+                             whole.cost(*scene.plane, *scene.plane));
+    return {.drawing = std::move(svg), .tells = std::move(tells)};
 }
 
 }  // namespace space::ch04

@@ -288,14 +288,14 @@ class Stage {
                 svg.line(moved(place(*node.parent), 0, shrunk(18)), moved(place(i), 0, shrunk(-16)),
                          {.stroke = waits ? Ink::quiet : ink, .dashed = waits});
             const bool leaf = !waits && !node.made->split;
-            const double half =
-                shrunk(leaf ? std::max(17.0, 7.0 * double(node.made->set.size())) : 17.0);
+            const double needed = leaf ? std::max(17.0, 7.0 * double(node.made->set.size())) : 17.0,
+                         half = std::min(shrunk(needed), 148 / leaves_ - 1),
+                         size = 18 * (leaf ? half / needed : shrunk(1));
             if (waits || leaf)
                 svg.rect(moved(place(i), -half, shrunk(-16)), at(2 * half, shrunk(32)), style);
             else
                 svg.circle(place(i), shrunk(18), style);
-            svg.text(moved(place(i), 0, shrunk(7)), label(node, waits),
-                     {.ink = ink, .size = shrunk(18)});
+            svg.text(moved(place(i), 0, shrunk(7)), label(node, waits), {.ink = ink, .size = size});
             svg.end_group();
         };
         if (!node.made) return draw(node.from, {}, Ink::quiet, true);

@@ -126,8 +126,10 @@ class Curve {
             svg.circle(view_(middle(code)), std::min(3.0, 0.2 * view_.scale),
                        {.stroke = {}, .fill = Ink::ink});
         const auto label = [&](std::uint64_t code, double x, double y) {
-            svg.text(moved(view_(middle(code)), x, y), std::to_string(code),
-                     {.size = 17, .halo = true});
+            const std::string text = std::to_string(code);
+            const Point2 place = view_(middle(code));
+            const double room = 672 - 5.0 * double(text.size()) - double{place.x};  // to the rim
+            svg.text(moved(place, std::min(x, room), y), text, {.size = 17, .halo = true});
         };
         label(0, -4, 22);
         if (depth_ > 1) label(count_ / 4 - 1, -2, -8);
@@ -148,6 +150,7 @@ class Curve {
     }
     void draw_code(Svg& svg, const OrthtreeCell<2>& cell) const {
         const std::uint64_t code = morton_code(cell);
+        svg.circle(view_(middle(code)), 9, {.stroke = Ink::green});
         const std::string bits = bits_of(code, int(2 * depth_));
         const double y = top + curve_side + 24;
         svg.text(at(curve_left, y), fmt::format("*x* = {}", bits_of(cell.place[0], int(depth_))),

@@ -79,11 +79,11 @@ class Stage {
     void draw_order(Svg& svg) const;
     Point2 place(std::size_t node) const {
         return at(366 + slot() * layout_[node].x,
-                  36 + std::min(84.0, 336 / std::max(levels_, 1.0)) * layout_[node].y);
+                  36 + std::min(84.0, 294 / std::max(levels_, 1.0)) * layout_[node].y);
     }
-    double slot() const { return std::min(34.0, 306 / slots_); }
+    double slot() const { return 306 / slots_; }
     /// Wide trees have small nodes.
-    double shrunk(double length) const { return length * slot() / 34; }
+    double shrunk(double length) const { return length * std::min(1.0, slot() / 34); }
     std::string told_cut(std::size_t node) const;
     std::string told_boundary() const;
 
@@ -211,13 +211,16 @@ void Stage::draw_node(Svg& svg, std::size_t i, Ink ink) const {
         std::string names;
         for (std::uint32_t k = node.first; k < node.last; ++k)
             names += "*" + name_of(tree_.index(k)) + "*";
-        const double half = shrunk(std::max(13.0, 8.0 * node.size()));
+        const double needed = std::max(13.0, 8.0 * node.size()),
+                     half = std::min(shrunk(needed), 0.5 * slot() - 1);
         svg.rect(moved(place(i), -half, shrunk(-13)), at(2 * half, shrunk(26)), style);
-        svg.text(moved(place(i), 0, shrunk(7)), names, {.ink = ink, .size = shrunk(20)});
+        svg.text(moved(place(i), 0, shrunk(7)), names, {.ink = ink, .size = 20 * half / needed});
     } else {
         svg.circle(place(i), shrunk(18), style);
-        svg.text(moved(place(i), 0, shrunk(6)), i == 0 ? "root" : path_of(cell(i)),
-                 {.ink = ink, .size = shrunk(i == 0 ? 16 : 18)});
+        const std::string path = path_of(cell(i));
+        svg.text(
+            moved(place(i), 0, shrunk(6)), i == 0 ? "root" : path,
+            {.ink = ink, .size = shrunk(i == 0 ? 16 : std::min(18.0, 48.0 / double(path.size())))});
     }
 }
 
@@ -277,7 +280,7 @@ void Stage::draw_order(Svg& svg) const {
         svg.text(at(x, y + 25), "*" + name_of(tree_.index(i)) + "*", {.size = 20});
         const OrthtreeCell<2> at_depth = frame.cell_of(tree_.point(i), tree_.cells.depth);
         svg.text(at(x, y + 50), path_of(at_depth),
-                 {.size = 18 * std::min(1.0, (width - 4) / std::max(digits, 1.0))});
+                 {.size = 18 * std::min(1.0, (width - 10) / std::max(digits, 1.0))});
     }
 }
 

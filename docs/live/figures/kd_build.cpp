@@ -67,10 +67,11 @@ Answer kd_build(const State& state) {
                       first = state.choice("first", 0, first_planes),
                       part = state.choice("straddlers", 0, straddlers_named);
     constexpr std::array of_rule{Rule::middle, Rule::middle, Rule::median, Rule::sah};
+    const auto depth = static_cast<std::size_t>(state.number("depth", 4.0, 1.0, 6.0));
     const KdTreeConfig config{.rule = of_rule[rule],
                               .straddlers = part == 0 ? Straddlers::clip : Straddlers::duplicate,
                               .max_leaf_size = 1,
-                              .max_depth = 6};
+                              .max_depth = depth};
     std::vector<KdSplit> planned;
     if (rule == 0) planned.assign(ch04::heinonen_planes().begin(), ch04::heinonen_planes().end());
     if (first > 0) {
@@ -92,7 +93,8 @@ Answer kd_build(const State& state) {
             .handles = std::move(handles.handles),
             .choices = {{"rule", "Cells are cut", rules, rule},
                         {"first", "The first plane", first_planes, first},
-                        {"straddlers", "Straddlers are named", straddlers_named, part}}};
+                        {"straddlers", "Straddlers are named", straddlers_named, part}},
+            .sliders = {{"depth", "Depth at most", double(depth), 1.0, 6.0, 1.0}}};
 }
 
 }  // namespace space::live

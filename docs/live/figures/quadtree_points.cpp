@@ -18,7 +18,7 @@ Answer quadtree_points(const State& state) {
             .sliders = {{"leaf", "Points that a leaf may hold", double(leaf_size), 1.0, 4.0, 1.0},
                         {"depth", "Depth at most", double(max_depth), 1.0, 6.0, 1.0}},
             .points = Points{.name = "points",
-                             .label = "points",
+                             .label = "point",
                              .values = points,
                              .zero = Double2(view(Double2(0.0))),
                              .unit = {view.scale, -view.scale},
