@@ -3,6 +3,16 @@
 #include <algorithm>
 
 namespace space {
+namespace {
+
+/// How many leaves a layout has, and how many levels below the root.
+Double2 reach_of(const std::vector<Double2>& layout) {
+    Double2 reach(0.0);
+    for (const Double2& place : layout) reach = glm::max(reach, place + Double2(0.5, 0.0));
+    return reach;
+}
+
+}  // namespace
 
 std::vector<Double2> tree_layout(const std::vector<std::vector<std::size_t>>& children) {
     std::vector<Double2> places(children.size());
@@ -18,13 +28,17 @@ std::vector<Double2> tree_layout(const std::vector<std::vector<std::size_t>>& ch
     return places;
 }
 
-TreePaper::TreePaper(double leaves, double levels)
-    : slot(306 / std::max(leaves, 1.0)),
-      level(296 / std::max(levels, 1.0)),
+TreePaper::TreePaper(double leaves, double levels, const Double2& from, const Double2& size)
+    : corner(from),
+      slot(size.x / std::max(leaves, 1.0)),
+      level(size.y / std::max(levels, 1.0)),
       shrink(std::min({1.0, slot / 34, level / 48})) {}
 
+TreePaper::TreePaper(const std::vector<Double2>& layout, const Double2& from, const Double2& size)
+    : TreePaper(reach_of(layout).x, reach_of(layout).y, from, size) {}
+
 Point2 TreePaper::operator()(const Double2& place) const {
-    return at(362 + slot * place.x, 32 + level * place.y);
+    return at(corner.x + slot * place.x, corner.y + level * place.y);
 }
 
 }  // namespace space

@@ -1,5 +1,7 @@
 #include "chapters/ch04_kd_trees/figures/drawn_build.hpp"
 
+#include "common/program/tree_layout.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,14 +26,7 @@ struct Steps {
 /// The story, its steps, and where its parts stand on the paper.
 class Stage {
   public:
-    explicit Stage(const Story& story) : story_(story) {
-        for (const Turn& turn : story.turns) {
-            const Double2 place = layout_[turn.node];
-            levels_ = std::max(levels_, place.y);
-            slots_ = std::max(slots_, place.x + 0.5);
-        }
-        write_script();
-    }
+    explicit Stage(const Story& story) : story_(story) { write_script(); }
     void draw(Svg& svg) const;
 
   private:
@@ -52,13 +47,7 @@ class Stage {
         return steps_[step].turn < story_.turns.size() ? &story_.turns[steps_[step].turn] : nullptr;
     }
     Ink ink_of(std::size_t step, std::uint32_t segment) const;
-    Point2 place(std::uint32_t node) const {
-        return at(352 + slot() * layout_[node].x,
-                  32 + std::min(92.0, 276 / std::max(levels_, 1.0)) * layout_[node].y);
-    }
-    double slot() const { return 322 / slots_; }
-    /// Wide trees have small nodes.
-    double shrunk(double length) const { return length * std::min(1.0, slot() / 34); }
+    Point2 place(std::uint32_t node) const { return paper_(layout_[node]); }
 
     void draw_cells(Svg& svg) const;
     void draw_planes(Svg& svg) const;
@@ -68,7 +57,7 @@ class Stage {
 
     const Story& story_;
     std::vector<Double2> layout_ = layout_of(story_);
-    double slots_ = 1, levels_ = 0;
+    TreePaper paper_{layout_, {352, 32}, {322, 276}};
     std::vector<Step> steps_;
     std::vector<Steps> of_turn_;
     PlaneView view_ = build_view();
@@ -210,15 +199,16 @@ void Stage::draw_nodes(Svg& svg) const {
             name = story_.plane_names.empty() ? std::string("*") + "xy"[turn.split->axis] + "*"
                                               : "*" + heinonen_plane_name(story_, turn.node) + "*";
         const double needed = std::max(18.0, 9.0 * double(letters.size())),
-                     half = std::min(shrunk(needed), 0.5 * slot() - 1),
-                     size = 24 * (turn.split ? shrunk(1) : half / needed);
+                     half = std::min(paper_.shrunk(needed), 0.5 * paper_.slot - 1),
+                     size = 24 * (turn.split ? paper_.shrunk(1) : half / needed);
         const auto node = [&](Ink ink) {
             const Style style{.stroke = ink, .fill = Ink::paper};
             if (turn.split)
-                svg.circle(centre, shrunk(20), style);
+                svg.circle(centre, paper_.shrunk(20), style);
             else
-                svg.rect(moved(centre, -half, -shrunk(18)), at(2 * half, shrunk(36)), style);
-            svg.text(moved(centre, 0, shrunk(8)), name, {.ink = ink, .size = size});
+                svg.rect(moved(centre, -half, -paper_.shrunk(18)), at(2 * half, paper_.shrunk(36)),
+                         style);
+            svg.text(moved(centre, 0, paper_.shrunk(8)), name, {.ink = ink, .size = size});
         };
         svg.begin_step(of_turn_[i].chosen, of_turn_[i].placed);
         node(Ink::green);

@@ -155,11 +155,8 @@ class Stage {
             add(made.below, below, made.step, children, made.node);
             add(made.below + 1, above, made.step, children, made.node);
         }
-        for (const Double2& place : tree_layout(children)) {
-            places_.push_back(place);
-            levels_ = std::max(levels_, place.y);
-            leaves_ = std::max(leaves_, place.x + 0.5);
-        }
+        places_ = tree_layout(children);
+        paper_ = TreePaper(places_, {372, 32}, {296, 290});
     }
 
     void draw(Svg& svg) const {
@@ -190,12 +187,7 @@ class Stage {
         children.emplace_back();
         nodes_.push_back({.index = index, .cell = cell, .from = from, .parent = above});
     }
-    Point2 place(std::size_t node) const {
-        return at(372 + 296 / leaves_ * places_[node].x,
-                  32 + 290 / std::max(levels_, 1.0) * places_[node].y);
-    }
-    /// Wide trees have small nodes.
-    double shrunk(double length) const { return length * std::min(1.0, 296 / leaves_ / 34); }
+    Point2 place(std::size_t node) const { return paper_(places_[node]); }
     /// Up to where a ray that hits nothing is drawn: a unit before the square's side, but not less
     /// than a unit.
     static double end_of(const Ray2& ray) {
@@ -285,17 +277,20 @@ class Stage {
             svg.begin_step(from, to);
             const Style style{.stroke = ink, .fill = Ink::paper, .dashed = waits};
             if (node.parent)
-                svg.line(moved(place(*node.parent), 0, shrunk(18)), moved(place(i), 0, shrunk(-16)),
+                svg.line(moved(place(*node.parent), 0, paper_.shrunk(18)),
+                         moved(place(i), 0, paper_.shrunk(-16)),
                          {.stroke = waits ? Ink::quiet : ink, .dashed = waits});
             const bool leaf = !waits && !node.made->split;
             const double needed = leaf ? std::max(17.0, 7.0 * double(node.made->set.size())) : 17.0,
-                         half = std::min(shrunk(needed), 148 / leaves_ - 1),
-                         size = 18 * (leaf ? half / needed : shrunk(1));
+                         half = std::min(paper_.shrunk(needed), 0.5 * paper_.slot - 1),
+                         size = 18 * (leaf ? half / needed : paper_.shrunk(1));
             if (waits || leaf)
-                svg.rect(moved(place(i), -half, shrunk(-16)), at(2 * half, shrunk(32)), style);
+                svg.rect(moved(place(i), -half, paper_.shrunk(-16)),
+                         at(2 * half, paper_.shrunk(32)), style);
             else
-                svg.circle(place(i), shrunk(18), style);
-            svg.text(moved(place(i), 0, shrunk(7)), label(node, waits), {.ink = ink, .size = size});
+                svg.circle(place(i), paper_.shrunk(18), style);
+            svg.text(moved(place(i), 0, paper_.shrunk(7)), label(node, waits),
+                     {.ink = ink, .size = size});
             svg.end_group();
         };
         if (!node.made) return draw(node.from, {}, Ink::quiet, true);
@@ -318,7 +313,7 @@ class Stage {
     std::vector<Drawn> nodes_;
     std::map<std::uint32_t, std::size_t> numbers_;  ///< of nodes, by their index in the tree
     std::vector<Double2> places_;
-    double levels_ = 0, leaves_ = 0;
+    TreePaper paper_{0, 0};
 };
 
 }  // namespace

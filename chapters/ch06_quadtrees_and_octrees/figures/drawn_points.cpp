@@ -44,10 +44,7 @@ class Stage {
             for (std::size_t k = 0; k < tree_.cells.children(nodes()[i]).size(); ++k)
                 children[i].push_back(nodes()[i].children + k);
         layout_ = tree_layout(children);
-        for (const Double2& place : layout_) {
-            levels_ = std::max(levels_, place.y);
-            slots_ = std::max(slots_, place.x + 0.5);
-        }
+        paper_ = TreePaper(layout_, {366, 36}, {306, 252});
         write_script();
     }
     void draw(Svg& svg) const {
@@ -77,13 +74,7 @@ class Stage {
     void draw_tree(Svg& svg) const;
     void draw_node(Svg& svg, std::size_t node, Ink ink) const;
     void draw_order(Svg& svg) const;
-    Point2 place(std::size_t node) const {
-        return at(366 + slot() * layout_[node].x,
-                  36 + std::min(84.0, 294 / std::max(levels_, 1.0)) * layout_[node].y);
-    }
-    double slot() const { return 306 / slots_; }
-    /// Wide trees have small nodes.
-    double shrunk(double length) const { return length * std::min(1.0, slot() / 34); }
+    Point2 place(std::size_t node) const { return paper_(layout_[node]); }
     std::string told_cut(std::size_t node) const;
     std::string told_boundary() const;
 
@@ -92,7 +83,7 @@ class Stage {
     Watcher watcher_;
     OrthtreePoints<2> tree_;
     std::vector<Double2> layout_;
-    double slots_ = 1, levels_ = 0;
+    TreePaper paper_{0, 0};
     std::vector<std::string> tells_;
     std::vector<std::size_t> turns_;  ///< the node that a step cuts, from step 1 on
     std::vector<int> since_, cut_;    ///< by node: the step in which it appears, and is cut
@@ -212,15 +203,17 @@ void Stage::draw_node(Svg& svg, std::size_t i, Ink ink) const {
         for (std::uint32_t k = node.first; k < node.last; ++k)
             names += "*" + name_of(tree_.index(k)) + "*";
         const double needed = std::max(13.0, 8.0 * node.size()),
-                     half = std::min(shrunk(needed), 0.5 * slot() - 1);
-        svg.rect(moved(place(i), -half, shrunk(-13)), at(2 * half, shrunk(26)), style);
-        svg.text(moved(place(i), 0, shrunk(7)), names, {.ink = ink, .size = 20 * half / needed});
+                     half = std::min(paper_.shrunk(needed), 0.5 * paper_.slot - 1);
+        svg.rect(moved(place(i), -half, paper_.shrunk(-13)), at(2 * half, paper_.shrunk(26)),
+                 style);
+        svg.text(moved(place(i), 0, paper_.shrunk(7)), names,
+                 {.ink = ink, .size = 20 * half / needed});
     } else {
-        svg.circle(place(i), shrunk(18), style);
+        svg.circle(place(i), paper_.shrunk(18), style);
         const std::string path = path_of(cell(i));
-        svg.text(
-            moved(place(i), 0, shrunk(6)), i == 0 ? "root" : path,
-            {.ink = ink, .size = shrunk(i == 0 ? 16 : std::min(18.0, 48.0 / double(path.size())))});
+        svg.text(moved(place(i), 0, paper_.shrunk(6)), i == 0 ? "root" : path,
+                 {.ink = ink,
+                  .size = paper_.shrunk(i == 0 ? 16 : std::min(18.0, 48.0 / double(path.size())))});
     }
 }
 
@@ -245,9 +238,9 @@ void Stage::draw_tree(Svg& svg) const {
             continue;
         }
         svg.begin_step(first, cut - 1);
-        svg.circle(place(i), shrunk(18), {.stroke = Ink::orange, .fill = Ink::paper});
-        svg.text(moved(place(i), 0, shrunk(7)), std::to_string(nodes()[i].size()),
-                 {.size = shrunk(20)});
+        svg.circle(place(i), paper_.shrunk(18), {.stroke = Ink::orange, .fill = Ink::paper});
+        svg.text(moved(place(i), 0, paper_.shrunk(7)), std::to_string(nodes()[i].size()),
+                 {.size = paper_.shrunk(20)});
         svg.end_group();
         svg.begin_step(cut, cut);
         draw_node(svg, i, Ink::green);
