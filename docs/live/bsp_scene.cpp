@@ -27,22 +27,18 @@ constexpr std::array rule_names{"the first of the set"sv, "any of the set"sv, "m
 
 }  // namespace
 
-BspScene bsp_scene(const State& state, const PlaneView& view) {
+BspScene bsp_scene(const State& state, const PlaneView& view, PlaneHandles& handles) {
     BspScene scene;
-    const Double2 zero = Double2(view(Double2(0.0))), unit(view.scale, -view.scale);
     std::vector<Segment> segments = heinonen_segments();
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const char letter = static_cast<char>('A' + static_cast<int>(i));
-        const auto end = [&](int which, Point2& p) {
-            const std::string name = fmt::format("{}{}", letter, which);
-            const Double2 value = state.point(name, Double2(p), 0.0, view.size);
-            scene.handles.push_back(
-                {name, fmt::format("{} end of segment {}", which == 1 ? "first" : "second", letter),
-                 value, zero, unit});
-            p = Point2(value);
+        const auto end = [&](int which, const Point2& first) {
+            return handles.at(
+                view, Double2(view.size), fmt::format("{}{}", letter, which),
+                fmt::format("{} end of segment {}", which == 1 ? "first" : "second", letter),
+                first);
         };
-        end(1, segments[i].a);
-        end(2, segments[i].b);
+        segments[i] = {end(1, segments[i].a), end(2, segments[i].b)};
     }
     std::vector<std::uint32_t> order;
     for (std::size_t i = 0; i < ordinals.size(); ++i) {

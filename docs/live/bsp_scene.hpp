@@ -4,21 +4,20 @@
 #pragma once
 
 #include "chapters/ch03_bsp_trees/figures/recorded_build.hpp"
-#include "docs/live/live.hpp"
+#include "docs/live/plane_handles.hpp"
 
 #include <vector>
 
 namespace space::live {
 
-/// A tree, and what it can be changed by.
+/// A tree, and what else than its segments' ends it can be changed by.
 struct BspScene {
     ch03::Story story;
-    std::vector<Handle> handles;
     std::vector<Choice> choices;
     std::vector<Slider> sliders;
 };
 
-/// The square of the segments is drawn in the view.
-BspScene bsp_scene(const State& state, const PlaneView& view);
+/// Asks where the segments' ends are, in a view of their square.
+BspScene bsp_scene(const State& state, const PlaneView& view, PlaneHandles& handles);
 
 }  // namespace space::live
