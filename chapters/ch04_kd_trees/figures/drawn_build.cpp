@@ -200,7 +200,7 @@ void Stage::draw_nodes(Svg& svg) const {
                                               : "*" + heinonen_plane_name(story_, turn.node) + "*";
         const double needed = std::max(18.0, 9.0 * double(letters.size())),
                      half = std::min(paper_.shrunk(needed), 0.5 * paper_.slot - 1),
-                     size = 24 * (turn.split ? paper_.shrunk(1) : half / needed);
+                     text_size = 24 * (turn.split ? paper_.shrunk(1) : half / needed);
         const auto node = [&](Ink ink) {
             const Style style{.stroke = ink, .fill = Ink::paper};
             if (turn.split)
@@ -208,7 +208,7 @@ void Stage::draw_nodes(Svg& svg) const {
             else
                 svg.rect(moved(centre, -half, -paper_.shrunk(18)), at(2 * half, paper_.shrunk(36)),
                          style);
-            svg.text(moved(centre, 0, paper_.shrunk(8)), name, {.ink = ink, .size = size});
+            svg.text(moved(centre, 0, paper_.shrunk(8)), name, {.ink = ink, .size = text_size});
         };
         svg.begin_step(of_turn_[i].chosen, of_turn_[i].placed);
         node(Ink::green);
