@@ -19,21 +19,27 @@ namespace {
 /// A soup that a fuzzer makes is small: who needs more than this is on the way to hang.
 constexpr Limits limits{.references = 20'000, .placements = 200'000};
 
-void compare_with(const BuiltStructure& naive, const BuiltStructure& other, std::string_view name,
-                  std::span<const Ray> rays) {
-    for (const Query query : {Query::closest, Query::any}) {
-        std::vector<HitRecord> expected(rays.size()), got(rays.size()), counted(rays.size());
-        naive.trace({rays, expected, query});
-        other.trace({rays, got, query});
-        other.count({rays, counted, query});
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (!(got[i] == expected[i]) || !(counted[i] == expected[i]))
-                fail(fmt::format(
-                    "{}, ray {}, query {}: t {} triangle {}, counting t {} triangle "
-                    "{}, naively t {} triangle {}",
-                    name, i, static_cast<int>(query), got[i].t, got[i].triangle, counted[i].t,
-                    counted[i].triangle, expected[i].t, expected[i].triangle));
-    }
+constexpr Query queries[] = {Query::closest, Query::any};
+
+std::vector<HitRecord> answers_of(const BuiltStructure& built, std::span<const Ray> rays,
+                                  Query query) {
+    std::vector<HitRecord> hits(rays.size());
+    built.trace({rays, hits, query});
+    return hits;
+}
+
+void compare_with(std::span<const HitRecord> expected, const BuiltStructure& other,
+                  std::string_view name, std::span<const Ray> rays, Query query) {
+    const std::vector<HitRecord> got = answers_of(other, rays, query);
+    std::vector<HitRecord> counted(rays.size());
+    other.count({rays, counted, query});
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (!(got[i] == expected[i]) || !(counted[i] == expected[i]))
+            fail(fmt::format(
+                "{}, ray {}, query {}: t {} triangle {}, counting t {} triangle "
+                "{}, naively t {} triangle {}",
+                name, i, static_cast<int>(query), got[i].t, got[i].triangle, counted[i].t,
+                counted[i].triangle, expected[i].t, expected[i].triangle));
 }
 
 }  // namespace
@@ -51,8 +57,11 @@ Answers::Answers(std::vector<Triangle> triangles, unsigned build_threads)
 }
 
 void Answers::compare(std::span<const Ray> rays) const {
-    for (std::size_t i = 1; i < built_.size(); ++i)
-        compare_with(built_[0].second, built_[i].second, built_[i].first, rays);
+    for (const Query query : queries) {
+        const std::vector<HitRecord> expected = answers_of(built_[0].second, rays, query);
+        for (std::size_t i = 1; i < built_.size(); ++i)
+            compare_with(expected, built_[i].second, built_[i].first, rays, query);
+    }
 }
 
 void compare_instances(const SceneGraph& graph) {
@@ -66,10 +75,12 @@ void compare_instances(const SceneGraph& graph) {
     }
     const BuiltStructure naive =
         structures().front().variants.front().build_from_triangles(triangles, {});
-    for (const Structure& structure : structures())
-        if (structure.name == "bvh-instanced")
-            compare_with(naive, structure.variants.front().build_from_graph(graph, {}),
-                         structure.name, rays);
+    for (const Structure& structure : structures()) {
+        if (structure.name != "bvh-instanced") continue;
+        const BuiltStructure built = structure.variants.front().build_from_graph(graph, {});
+        for (const Query query : queries)
+            compare_with(answers_of(naive, rays, query), built, structure.name, rays, query);
+    }
 }
 
 }  // namespace space::fuzz
