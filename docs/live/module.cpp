@@ -1,5 +1,6 @@
 // What the page's script calls: a text goes in, a text comes out.
 #include "docs/live/live.hpp"
+#include "docs/live/same_bits.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -31,6 +32,13 @@ __attribute__((export_name("answer_bytes"))) const char* answer_bytes() {
 /// The pixels of its picture, four bytes each.
 __attribute__((export_name("picture_bytes"))) const std::uint8_t* picture_bytes() {
     return reply.pixels.data();
+}
+
+/// What a test compares with a program's (docs/live/same_bits.hpp), as an answer.
+__attribute__((export_name("same_bits"))) std::size_t same_bits(std::uint32_t seed,
+                                                                std::uint32_t rays) {
+    reply = {space::live::same_bits(seed, rays)};
+    return reply.text.size();
 }
 
 // What an exception would have been ends the call: the script sees a trap, shows the drawing that
