@@ -110,8 +110,10 @@ int run(int argc, char** argv) {
     if (all) print_scenes(measured.scenes = measure_scenes(options), times);
     print_crossings(measured.crossings = measure_crossings(options));
     if (all) print_grades(measured.grades = measured_once<measure_grades>(options), times);
-    print_growth(measured.growth = measured_once<measure_growth>(options), times);
-    if (all) measured.printed = build_as_printed(options);
+    if (all) {
+        print_growth(measured.growth = measured_once<measure_growth>(options), times);
+        measured.printed = build_as_printed(options);
+    }
     const std::uint64_t wrong =
         wrong_answers(measured) + measured.pictures.other_pixels + measured.pictures.painter_wrong;
     quoted(measured, times).write(options.out, provenance(std::string(this_chapter.name), options));

@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
     if (all) print_pictures(measured.pictures = draw_pictures(options));
     print_cures(measured.cures = measured_once<measure_cures>(options), times);
     print_trees(measured.trees = measured_once<measure_trees>(options), times);
-    print_growth(measured.growth = measured_once<measure_growth>(options), times);
+    if (all) print_growth(measured.growth = measured_once<measure_growth>(options), times);
     if (all) print_care(measured.care = measured_once<measure_care>(options), times);
     print_overlaps(measured.overlaps = measure_overlaps(options));
     if (all) print_points(measured.points = measured_once<measure_point_searches>(options), times);

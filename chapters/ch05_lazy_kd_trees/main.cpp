@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
 
     if (!options.counts) draw_picture(options);
     Measurements measured;
-    print_views(measured.views = measured_once<measure_views>(options), times);
+    if (all) print_views(measured.views = measured_once<measure_views>(options), times);
     print_reach(measured.reach = measured_once<measure_reach>(options), times);
     print_memory(measured.memory = measured_once<measure_memory>(options));
     if (all) {

@@ -121,6 +121,13 @@ int run(int argc, char** argv) {
     print_transforms(transforms, times);
     const BoxingMeasurements boxing = measure_boxing(options);
     print_boxing(boxing, times);
+    if (options.counts && options.quick) {  // what takes seconds
+        Numbers numbers;
+        quote_transforms(transforms, times, numbers);
+        quote_boxing(boxing, times, numbers);
+        numbers.write(options.out, provenance(std::string(this_chapter.name), options));
+        return exit_code(wrong_transforms(transforms) + wrong_boxing(boxing));
+    }
     const InstancedMeasurements instanced = measure_instanced(options);
     print_instanced(instanced, times);
     const NestingMeasurements& nesting = measured_once<measure_nesting>(options);

@@ -61,9 +61,6 @@ const std::vector<GrowingScene>& growing_scenes() {
     return scenes;
 }
 
-/// The scene whose trees are all counted in seconds.
-constexpr std::string_view quickest = "big triangles";
-
 /// How many polygons are held against planes: once where they are placed, and for each candidate.
 std::uint64_t classified(const Method& method, std::uint64_t placed) {
     const bool tries =
@@ -114,10 +111,6 @@ std::vector<Growth> measure_growth(const Options& options) {
     std::vector<Growth> all;
     Progress progress("growth", growing_scenes().size() * limit.sizes * (methods.size() - 1));
     for (const GrowingScene& scene : growing_scenes()) {
-        if (options.counts && options.quick && scene.name != quickest) {
-            progress.step(limit.sizes * (methods.size() - 1));
-            continue;
-        }
         const std::size_t first = all.size(), sizes = std::min(limit.sizes, scene.sizes.size());
         for (const Method& method : methods)
             if (grows(method))

@@ -207,7 +207,6 @@ void quote_growth(const std::vector<Growth>& growth, Numbers& numbers) {
     numbers.count("big_slope_least", least_slope, fixed(least_slope, 1));
     numbers.count("big_slope_most", most_slope, fixed(most_slope, 1));
     numbers.count("big_n", big_n);
-    if (std::ranges::count(growth, "stack", &Growth::scene) == 0) return;  // not all were grown
     numbers.count("deepest", deepest);
     numbers.count("pieces_least", fewest, fixed(fewest, 1));
     numbers.count("pieces_most", most, fixed(most, 1));
@@ -266,7 +265,7 @@ Numbers quoted(const Measurements& measured, bool times) {
     quote_pictures(measured, numbers);
     numbers.count("worst_known_share", measured.worst_known_share,
                   fixed(measured.worst_known_share, 2));
-    quote_growth(measured.growth, numbers);
+    if (!measured.growth.empty()) quote_growth(measured.growth, numbers);
     quote_grades(measured.grades, times, numbers);
     const Crossings sum = all_crossings(measured);
     numbers.count("crossing_rays", sum.rays);

@@ -21,7 +21,7 @@ Limits limits(const Options& options) {
         default:
             return {.width = 240,
                     .height = 180,
-                    .sizes = options.quick ? 3u : 7u,  // --counts --quick: what takes seconds
+                    .sizes = 7,
                     .rays = 10'000,
                     .aimed_rays = 200'000,
                     .rounds = options.counts ? 0 : 5};

@@ -279,7 +279,7 @@ void quote_trees(const std::vector<TreePoint>& trees, bool all, Numbers& numbers
 }
 
 /// The counts at 10,000 triangles, and if `all` have been grown the slopes.
-void quote_growth(const std::vector<Growth>& growth, bool all, bool times, Numbers& numbers) {
+void quote_growth(const std::vector<Growth>& growth, bool times, Numbers& numbers) {
     for (const Growth& g : growth) {
         if (g.front().rule != sah) continue;
         const TreePoint &at = g[2], &last = g.back();
@@ -288,7 +288,6 @@ void quote_growth(const std::vector<Growth>& growth, bool all, bool times, Numbe
         numbers.count(name + "_tests", at.tests_per_ray(), fixed(at.tests_per_ray(), 1));
         const double share = at.tests_per_ray() / double(at.n);
         numbers.count(name + "_of_naive", share, one_in(share));
-        if (!all) continue;
         numbers.count(name + "_last_n", last.n);
         numbers.count(name + "_last_tests", last.tests_per_ray(), fixed(last.tests_per_ray(), 1));
         numbers.count(name + "_last_nodes", last.nodes_per_ray(), fixed(last.nodes_per_ray(), 1));
@@ -301,7 +300,7 @@ void quote_growth(const std::vector<Growth>& growth, bool all, bool times, Numbe
             numbers.time(name + "_build_slope", fitted, fixed(fitted, 2));
         }
     }
-    if (all) numbers.count_table("growth", growth_table(growth, false));
+    numbers.count_table("growth", growth_table(growth, false));
 }
 
 void quote_points(const std::vector<PointSet>& points, bool times, Numbers& numbers) {
@@ -324,7 +323,7 @@ Numbers quoted(const Measurements& measured, bool times) {
     if (all) numbers.count_table("pictures", pictures_table(measured.pictures));
     quote_cures(measured.cures, times, numbers);
     quote_trees(measured.trees, all, numbers);
-    quote_growth(measured.growth, all, times, numbers);
+    if (all) quote_growth(measured.growth, times, numbers);
     numbers.count_table("overlaps", overlaps_table(measured.overlaps));
     if (!all) return numbers;
     numbers.count_table("care", care_table(measured.care, false));
