@@ -29,7 +29,7 @@ void check_answers(const Structure& bvh, const std::vector<Triangle>& triangles,
     const auto naive = Naive<FilteredExact>::build(triangles);
     BoxRays maker(bvh.nodes(), triangles, 3);
     std::size_t hits = 0;
-    for (int i = 0; i < sized(rays, rays / 10); ++i) {
+    for (int i = 0; i < sized(rays, 70 + rays / 10); ++i) {
         const Ray ray = maker.next().ray;
         const auto expected = closest_hit(naive, ray);
         REQUIRE(closest_hit(bvh, ray) == expected);
