@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace {
 static_assert(drawn_test_names.size() == triangle_test_count);
 
 constexpr std::array<Ink, 4> verdict_inks{Ink::vermillion, Ink::sky, Ink::yellow, Ink::blue};
+constexpr std::array<std::string_view, 4> verdict_texts{"neither", "*a b c*", "*a c d*", "both"};
 constexpr float size = static_cast<float>(glass_square) * glass_side;
 
 Point2 view(const Point3& p) {
@@ -74,7 +76,7 @@ void draw_glass(Svg& svg, const EdgeScene& scene, std::size_t i,
     const int leaks = leaks_of(verdicts, exact);
     std::string says = leaks ? fmt::format("{} leaks", leaks) : "no leak";
     if (scene.marked) {
-        says += fmt::format("; the ray: {}", verdict_names[verdicts.of(*scene.marked)]);
+        says += fmt::format("; ray: {}", verdict_texts[verdicts.of(*scene.marked)]);
         const double half = 0.5 * glass_side;
         svg.rect(moved(corner, glass_square * (half + scene.marked->right) - 2,
                        glass_square * (half - scene.marked->up) - 2),
