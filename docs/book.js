@@ -111,10 +111,10 @@ function inTheMiddle(lists) {
   return lists.reduce((best, list) => (away(list) < away(best) ? list : best));
 }
 
-// The steps of a drawing that was drawn again: its sentences stand in its groups.
-function renewSteps(drawing) {
-  let at = 0;
-  for (let next; (next = drawing.nextElementSibling)?.matches(".step-bar, ol.steps"); next.remove()) at = next.step?.() ?? at;
+// The steps of a drawing that was drawn again: its sentences stand in its groups. Who was at the last step stays there.
+function renewSteps(drawing, at = 0) {
+  for (let next; (next = drawing.nextElementSibling)?.matches(".step-bar, ol.steps"); next.remove())
+    if (next.step && at < Infinity) at = next.step() < next.children.length - 1 ? next.step() : Infinity;
   const told = [...drawing.querySelectorAll("[data-first] > desc")];
   if (!told.length) return;
   const list = document.createElement("ol");

@@ -79,13 +79,14 @@ live.play = async (box, state) => {
   const draw = async (quick = false) => {
     const next = await live.ask(address() + (quick ? ";detail=low" : ""));
     if (next.error) return void (said.textContent = `This can't be drawn (${next.error}).`);
+    const first = !answer;
     answer = next;
     const parsed = document.importNode(new DOMParser().parseFromString(answer.svg, "image/svg+xml").documentElement, true);
     for (const name of ["width", "height", "viewBox"]) svg.setAttribute(name, parsed.getAttribute(name));
     while (svg.firstChild !== overlay) svg.firstChild.remove();
     overlay.before(...parsed.childNodes);
     fit();
-    renewSteps(box);
+    renewSteps(box, first ? Infinity : 0);  // the last step shows most of what changes
     const { handles, points, choices, sliders, picture } = answer;
     const byHand = points ? points.values.map((value, i) => (
       { ...points, name: `${points.name} ${i + 1}`, label: `${points.label} ${i + 1}`, value, of: points, i })) : [];
@@ -98,7 +99,7 @@ live.play = async (box, state) => {
       shown.delete(name);
     }
     const speed = picture?.rays ? `, ${(picture.rays / answer.ms / 1000).toFixed(2)} million rays a second` : "";
-    said.textContent = `${answer.summary} (${answer.ms.toFixed(1)} ms${speed})`;
+    said.textContent = `${answer.summary} (${answer.ms.toFixed(1)}\u00a0ms${speed})`;
   };
   const again = () => {
     clearTimeout(resting);

@@ -156,6 +156,7 @@ def expect_change(name, how, act, kept=None):
 def look_at_start(name):
     """The drawing of the book, then the same one made by the module: the same bytes, and the same to the eye."""
     open_figure(name, 1280, "light")
+    chromium.run("box.parentElement.querySelector('ol.steps')?.show(Infinity)")  # where what is played begins
     still = shot()
     chromium.run("box.previousElementSibling.click()")
     if not chromium.wait("box.classList.contains('played') && said()"):
@@ -163,12 +164,16 @@ def look_at_start(name):
     file = figures / f"{name}.svg"
     if not file.exists():
         fault(name, f"has no {file}")
-    # Pixels are laid over the module's drawing; the book's holds them.
-    elif chromium.run(f"return (async () => (await live.ask('{name}')).svg)()") != re.sub(r"<image .*\n", "", file.read_text()):
-        fault(name, "begins with another drawing than the book's")
-    chromium.run("svg().querySelector('.live-overlay').style.opacity = 0")
+    else:
+        svg, has_pixels = chromium.run(f"return live.ask('{name}').then(({{svg, picture}}) => [svg, !!picture])")
+        book = file.read_text()
+        if has_pixels:  # they are laid over the module's drawing; the book's holds them
+            book = re.sub(r"<image .*\n", "", book)
+        if svg != book:
+            fault(name, "begins with another drawing than the book's")
+    chromium.run("dots().forEach((dot) => (dot.style.opacity = 0))")
     played = shot()
-    chromium.run("svg().querySelector('.live-overlay').style.opacity = 1")
+    chromium.run("dots().forEach((dot) => (dot.style.opacity = 1))")
     if max(abs(a - b) for a, b in zip(still["grey"], played["grey"])) > 40 or played["colours"] < 3:
         fault(name, "looks other than the book's drawing")
     return True
