@@ -11,7 +11,7 @@ namespace {
 /// What `nm` says of the library: a line a symbol, which begins with archive and member.
 std::string listed() {
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(
-        popen("nm -A -C --defined-only " ARCHIVE " 2>/dev/null", "r"), pclose);
+        popen("nm -A -C --defined-only '" ARCHIVE "' 2>/dev/null", "r"), pclose);
     std::string text;
     std::array<char, 4096> part;
     for (std::size_t size;
