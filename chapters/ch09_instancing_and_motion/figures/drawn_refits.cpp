@@ -17,7 +17,7 @@ BvhNodes<2> tree_around(std::span<const Segment> walkers) {
     return BinnedBuilder::build<2>(walkers, {.costs = {1.0, 1.0}, .max_leaf_size = 1});
 }
 
-BvhNodes<2> refitted(BvhNodes<2> tree, std::span<const Segment> moved) {
+BvhNodes<2> with_new_boxes(BvhNodes<2> tree, std::span<const Segment> moved) {
     refit<2>(tree, moved);
     return tree;
 }
@@ -101,7 +101,7 @@ std::vector<Segment> walkers_at_rest() {
 std::array<FollowedTree, 3> followed_trees(std::span<const Segment> rest,
                                            std::span<const Segment> moved, const Ray2& ray) {
     const BvhNodes<2> first = tree_around(rest);
-    return {followed("refitted", refitted(first, moved), moved, ray),
+    return {followed("refitted", with_new_boxes(first, moved), moved, ray),
             followed("with rotations", rotated(first, moved), moved, ray),
             followed("built anew", tree_around(moved), moved, ray)};
 }
