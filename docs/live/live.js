@@ -92,7 +92,7 @@ live.play = async (box, state) => {
       { ...points, name: `${points.name} ${i + 1}`, label: `${points.label} ${i + 1}`, value, of: points, i })) : [];
     const named = new Set([
       ...renew(picture ? [{ ...picture, name: " pixels" }] : [], pixels),
-      ...renew(points ? [{ ...points, name: " paper" }] : [], paper),
+      ...renew(points ? [{ name: " paper", points }] : [], paper),
       ...renew([...handles, ...byHand], dot), ...renew(choices, choice), ...renew(sliders, slider)]);
     for (const [name, control] of shown) if (!named.has(name)) {
       control.parts.forEach((part) => part.remove());
@@ -181,7 +181,7 @@ live.play = async (box, state) => {
       if (points.values.length < points.limit) list(points, [...points.values, value]);
     };
     const press = (textContent, onclick) => element("button", { type: "button", textContent, onclick }, buttons);
-    const control = { renew: (points) => {
+    const control = { renew: ({ points }) => {
       control.points = points;
       const { least, most, zero, unit } = points;
       const [x, y] = [0, 1].map((i) => zero[i] + unit[i] * (unit[i] > 0 ? least : most));
