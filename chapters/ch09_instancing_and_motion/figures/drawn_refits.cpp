@@ -22,7 +22,7 @@ BvhNodes<2> with_new_boxes(BvhNodes<2> tree, std::span<const Segment> moved) {
     return tree;
 }
 
-BvhNodes<2> rotated(BvhNodes<2> tree, std::span<const Segment> moved) {
+BvhNodes<2> with_rotated_nodes(BvhNodes<2> tree, std::span<const Segment> moved) {
     refit_upwards(
         tree,
         [&](const BvhNode<2>& leaf) {
@@ -102,7 +102,7 @@ std::array<FollowedTree, 3> followed_trees(std::span<const Segment> rest,
                                            std::span<const Segment> moved, const Ray2& ray) {
     const BvhNodes<2> first = tree_around(rest);
     return {followed("refitted", with_new_boxes(first, moved), moved, ray),
-            followed("with rotations", rotated(first, moved), moved, ray),
+            followed("with rotations", with_rotated_nodes(first, moved), moved, ray),
             followed("built anew", tree_around(moved), moved, ray)};
 }
 
