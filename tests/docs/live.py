@@ -2,6 +2,8 @@
 """Plays with every live figure of the site in a headless Chromium, from local files: drags, keys, touches, choices, sliders,
 random states. Prints a line per fault, and how long the slowest answer took; exit code 77: no browser, or no live figures.
 
+Mouse, keys and fingers play with a figure that has a kind of part which no figure before it had; LIVE=all: with each.
+
 Run: live.py SITE FIGURES; LIVE_STATES says how many random states a figure (25; hundreds take minutes)."""
 
 import os
@@ -278,7 +280,9 @@ def without_module(name):
     chromium.driver.get_log("browser")
 
 
-states, slowest = int(os.environ.get("LIVE_STATES", 25)), 0
+kinds = """return ['.live-dot', '.live-paper', 'canvas'].filter((part) => svg().querySelector(part)).concat(
+    ['select', 'input'].filter((part) => bar().querySelector(part)))"""
+states, slowest, played = int(os.environ.get("LIVE_STATES", 25)), 0, set()
 for name in where:
     if look_at_start(name):
         found = chromium.run(f"return fuzz('{name}', {states}, 1)")
@@ -286,8 +290,11 @@ for name in where:
             fault(name, what)
         slowest = max(slowest, found["worst"])
         print(f"{name}: {found['median']:.1f} ms, at worst {found['worst']:.1f} ms")
-        play(name)
-        touch_it(name)
+        parts = set(chromium.run(kinds))
+        if parts - played or os.environ.get("LIVE") == "all":
+            play(name)
+            touch_it(name)
+            played |= parts
     chromium.look_at_logs(name)
 without_module(next(iter(where)))
 size = (site / "live_module.js").stat().st_size * 3 / 4
