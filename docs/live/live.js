@@ -66,8 +66,8 @@ live.play = async (box, state) => {
   const address = () => [id, ...[...state].map(([name, value]) => `${name}=${value}`)].join(";");
   const rest = () => {
     history.replaceState(null, "", `#${encodeURI(address())}`);
-    told.textContent = answer.summary;
-    if (answer.picture && !held) draw();  // in full
+    told.textContent = answer?.summary ?? "";
+    if (answer?.picture && !held) draw();  // in full
   };
   // Of each kind of part, those that this answer names: made where they are new, gone where they are named no more.
   const renew = (parts, make) => parts.map((part) => {
@@ -108,7 +108,7 @@ live.play = async (box, state) => {
     waits = true;
     requestAnimationFrame(() => {
       waits = false;
-      draw(Boolean(answer.picture));
+      draw(Boolean(answer?.picture));
     });
   };
   const change = (name, value) => {
