@@ -19,7 +19,8 @@ struct TreePaper {
     /// size.
     TreePaper(double leaves, double levels, const Double2& corner = {362, 32},
               const Double2& size = {306, 296});
-    TreePaper(const std::vector<Double2>& layout, const Double2& corner, const Double2& size);
+    explicit TreePaper(const std::vector<Double2>& layout, const Double2& corner = {362, 32},
+                       const Double2& size = {306, 296});
     Point2 operator()(const Double2& place) const;
     /// A length of a node.
     double shrunk(double length) const { return length * shrink; }

@@ -36,12 +36,7 @@ class WalkPaper {
         std::vector<std::vector<std::size_t>> children;
         for (const DrawnTree::Node& node : tree.nodes) children.push_back(node.children);
         places_ = tree_layout(children);
-        double levels = 0, leaves = 0;
-        for (const Double2& place : places_) {
-            levels = std::max(levels, place.y);
-            leaves = std::max(leaves, place.x + 0.5);
-        }
-        tree_paper_ = TreePaper(leaves, levels);
+        tree_paper_ = TreePaper(places_);
         for (const WalkStep& step : steps) rows_ = std::max(rows_, 1 + step.waiting.size());
     }
 
