@@ -23,9 +23,9 @@ std::string tick_text(double value, double largest) {
     return fmt::format("{:g}", value);
 }
 
-Axis log_axis(double least, double most, std::size_t most_ticks) {
-    // Room at both ends, so that no point sits in a corner.
-    const double pad = std::pow(std::max(most / least, 2.0), 0.05);
+Axis log_axis(double least, double most, std::size_t most_ticks, double room) {
+    // So that no point sits in a corner.
+    const double pad = std::pow(std::max(most / least, 2.0), room);
     Axis axis{.logarithmic = true, .low = least / pad, .high = most * pad};
     for (const std::vector<double>& steps :
          {std::vector<double>{1}, std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 4, 5, 7}}) {

@@ -27,9 +27,9 @@ struct Axis {
 /// 25000 -> "25 K", where the axis reaches 10,000 or more.
 std::string tick_text(double value, double largest);
 
-/// Of positive values, with room at both ends; every third decade has a tick where all are too
-/// many.
-Axis log_axis(double least, double most, std::size_t most_ticks = 8);
+/// Of positive values, with room at both ends, a part of what lies between; every third decade has
+/// a tick where all are too many.
+Axis log_axis(double least, double most, std::size_t most_ticks = 8, double room = 0.05);
 
 /// From zero, where no value is negative, to at least `headroom` steps above the largest.
 Axis linear_axis(double least, double most, double headroom = 0.0);

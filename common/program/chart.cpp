@@ -4,6 +4,7 @@
 #include "common/program/axis.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
+#include "common/program/plot.hpp"
 #include "common/program/report.hpp"
 #include "common/program/results.hpp"
 #include "common/program/svg_colors.hpp"
@@ -106,11 +107,13 @@ class Script {
         }
         if (!(x_least <= x_most))
             throw output_error(fmt::format("{}.svg: there is no point to draw", chart.id));
-        x_ = chart.log_x ? log_axis(x_least, x_most) : linear_axis(x_least, x_most);
+        const bool points = chart.kind == ChartKind::points;
+        // A point on the frame looks cut off, and its name stands beside it.
+        const double room = points ? 0.13 : 0.05, headroom = points ? 0.3 : 0.0;
+        x_ = chart.log_x ? log_axis(x_least, x_most, 8, room) : linear_axis(x_least, x_most);
         if (bars()) x_ = {false, -0.5, static_cast<double>(chart.categories.size()) - 0.5, {}};
-        const double headroom =
-            chart.kind == ChartKind::points ? 0.3 : 0.0;  // a point on the frame looks cut off
-        y_ = chart.log_y ? log_axis(y_least, y_most) : linear_axis(y_least, y_most, headroom);
+        y_ = chart.log_y ? log_axis(y_least, y_most, 8, room)
+                         : linear_axis(y_least, y_most, headroom);
 
         std::size_t tick_length = 0, name_length = 0;
         for (const Tick& tick : y_.ticks) tick_length = std::max(tick_length, tick.text.size());
@@ -244,54 +247,31 @@ class Script {
         }
     }
 
-    /// Above bars; beside points, where the least lies in the way: to the right, to the left,
-    /// above, below.
+    /// Above bars; beside points, where least is in the way.
     void label_points() {
-        struct Box {
-            double left, top, right, bottom;
-            double overlap(const Box& other) const {
-                return std::max(0.0, std::min(right, other.right) - std::max(left, other.left)) *
-                       std::max(0.0, std::min(bottom, other.bottom) - std::max(top, other.top));
-            }
-        };
-        std::vector<Box> taken;  // by points and by labels
+        Labels labels({at(left_, 0), at(right_ + text_gap, bottom_)});
         if (!bars())
             for (const Points& series : points_)
-                for (std::size_t i = 0; i < series.x.size(); ++i) {
-                    const double x = x_at(series.x[i]), y = y_at(series.y[i]);
-                    taken.push_back({x - 7, y - 7, x + 7, y + 7});
-                }
+                for (std::size_t i = 0; i < series.x.size(); ++i)
+                    labels.keep_free(at(x_at(series.x[i]), y_at(series.y[i])), 7);
         for (std::size_t s = 0; s < points_.size(); ++s)
             for (std::size_t i = 0; i < points_[s].x.size(); ++i) {
                 const std::string& text = points_[s].labels[i];
-                const double y = y_at(points_[s].y[i]);
-                if (bars()) {
+                const double x = x_at(points_[s].x[i]), y = y_at(points_[s].y[i]);
+                if (bars())
                     label(text, x_at(points_[s].x[i] + offset(s)), y - 10, "center", Ink::ink);
-                    continue;
-                }
-                if (text.empty()) continue;
-                const double x = x_at(points_[s].x[i]),
-                             width = character_width * static_cast<double>(text.size());
-                const double gap = text_gap, half = 0.5 * text_size;
-                const std::array<Box, 4> places{
-                    {{x + gap, y - half, x + gap + width, y + half},
-                     {x - gap - width, y - half, x - gap, y + half},
-                     {x - width / 2, y - gap - 2 * half, x + width / 2, y - gap},
-                     {x - width / 2, y + gap, x + width / 2, y + gap + 2 * half}}};
-                const auto in_the_way = [&](const Box& box) {
-                    const Box picture{left_, 0, right_ + gap, bottom_};
-                    double area =
-                        (box.right - box.left) * (box.bottom - box.top) - box.overlap(picture);
-                    for (const Box& other : taken) area += box.overlap(other);
-                    return area;
-                };
-                const Box& best = *std::min_element(
-                    places.begin(), places.end(),
-                    [&](const Box& p, const Box& q) { return in_the_way(p) < in_the_way(q); });
-                const double blank = 0.5 * character_width;  // "3" beside "4" is not 34
-                taken.push_back({best.left - blank, best.top, best.right + blank, best.bottom});
-                label(text, best.left, best.bottom - half + text_size / 3, "left", Ink::ink);
+                else if (!text.empty())
+                    name_point(text, at(x, y), labels.place(at(x, y), text, text_size, text_gap));
             }
+    }
+
+    void name_point(const std::string& text, Point2 point, const PlacedName& placed) {
+        if (placed.line)
+            add("set arrow from screen {:.5f},{:.5f} to screen {:.5f},{:.5f} nohead back linecolor "
+                "rgb '{}' linewidth 0.5",
+                point.x / chart_width, 1.0 - point.y / chart_height, placed.line->x / chart_width,
+                1.0 - placed.line->y / chart_height, svg_color(Ink::quiet));
+        label(text, placed.start.x, placed.start.y, "left", Ink::ink);
     }
 
     /// Between the names of the key, if all stand in one row. Some fonts are wider than the one

@@ -8,6 +8,7 @@
 #include "common/program/svg.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -53,6 +54,12 @@ struct Symbol {
 };
 void draw_symbol(Svg& svg, Point2 centre, const Symbol& symbol);
 
+/// Where a text's base line begins; a name farther off has a thin line from its point to `line`.
+struct PlacedName {
+    Point2 start;
+    std::optional<Point2> line = {};
+};
+
 /// Finds places for names beside points, where least is in their way.
 class Labels {
   public:
@@ -63,12 +70,14 @@ class Labels {
     void keep_free(Point2 centre, double radius);
     void keep_free_along(Point2 a, Point2 b);
 
-    /// Draws the text beside the point, or a little farther off with a thin line to it.
+    /// A place beside the point, or a little farther off. It is taken then.
+    PlacedName place(Point2 point, std::string_view text, double size, double gap = 10.0);
     void draw(Svg& svg, Point2 point, std::string_view text, const TextStyle& style,
               double gap = 10.0);
 
   private:
     double in_the_way(const Aabb2& box) const;
+    double in_the_way(Point2 from, Point2 to) const;
 
     Aabb2 inside_;
     std::vector<Aabb2> taken_;
