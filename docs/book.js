@@ -20,7 +20,12 @@ DoxygenAwesomeParagraphLink.init();
 DoxygenAwesomeInteractiveToc.topOffset = 45;
 DoxygenAwesomeInteractiveToc.init();
 
-// Formulas: MathJax is in the site and is loaded where a page has any.
+// Formulas: MathJax is in the site and is loaded where a page has any. They stand larger than what they are written with:
+// what is below them moves.
+let showFormulas;
+const formulasShown = new Promise((shown) => {
+  showFormulas = () => shown(document.documentElement.classList.add("formulas-shown"));
+});
 window.MathJax = {
   showMathMenu: false,
   messageStyle: "none",
@@ -30,7 +35,7 @@ window.MathJax = {
   AuthorInit() {
     for (const fault of ["TeX Jax - parse error", "TeX Jax - undefined macro", "Math Processing Error"])
       MathJax.Hub.Register.MessageHook(fault, (message) => console.error("formula: " + message.slice(1, 3).join(": ")));
-    MathJax.Hub.Register.StartupHook("End", () => document.documentElement.classList.add("formulas-shown"));
+    MathJax.Hub.Register.StartupHook("End", showFormulas);
   },
 };
 
@@ -139,7 +144,7 @@ document.addEventListener("keydown", (event) => {
 document.addEventListener("DOMContentLoaded", () => {
   stepLists().forEach((list) => stepThrough(list));
   if (/\\[(\[]/.test(document.querySelector(".contents")?.textContent)) load("mathjax/MathJax.js?config=TeX-AMS_SVG-full");
-  else document.documentElement.classList.add("formulas-shown");
+  else showFormulas();
 
   // A table wider than the page scrolls in a box of its own.
   for (const table of document.querySelectorAll(".contents table.markdownTable, .contents table.doxtable")) {

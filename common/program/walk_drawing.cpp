@@ -220,7 +220,8 @@ void WalkPaper::draw(Svg& svg) const {
         svg.end_group();
     }
     svg.rect(view_({0, tree_.size}), at(frame, frame), {.stroke = Ink::quiet});
-    for (const DrawnTree::Node& node : tree_.nodes) draw_lines(svg, node, Ink::faint);
+    for (const DrawnTree::Node& node : tree_.nodes)
+        if (node.ink) draw_lines(svg, node, *node.ink);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         svg.begin_step_alone(k, steps_.size());
         if (steps_[k].in_hand) draw_lines(svg, tree_.nodes[steps_[k].in_hand->node], Ink::green);

@@ -21,6 +21,7 @@ struct DrawnTree {
         std::string name;                        ///< as Svg::text takes it; an empty cell has none
         ConvexCell cell;                         ///< the part of the plane that it is about
         std::vector<Double2> lines = {};         ///< what divides it: two ends of each
+        std::optional<Ink> ink = Ink::faint;     ///< of the lines while it is not in hand
         std::vector<std::size_t> children = {};  ///< from left to right on the paper
     };
     double size;  ///< of the square, from (0, 0) on

@@ -291,12 +291,17 @@ live.address = () => {
     return ["", new Map()];
   }
 };
-live.follow = () => {
+live.follow = async () => {
   const [id, state] = live.address(), box = [...document.querySelectorAll("[data-live]")].find((each) => each.dataset.live === id);
   if (!box) return;
-  if (box.renew) box.renew(state);
-  else box.play(state);
-  box.scrollIntoView({ block: "center" });
+  let gone = false;
+  for (const own of ["wheel", "touchstart", "pointerdown", "keydown"])
+    window.addEventListener(own, () => (gone = true), { once: true, passive: true, capture: true });
+  const show = () => gone || box.scrollIntoView({ block: "center" });
+  const played = box.renew ? box.renew(state) : box.play(state);
+  show();
+  await Promise.all([played, formulasShown]);  // the bar and the formulas above move it, but for a reader who has gone on
+  show();
 };
 
 document.addEventListener("DOMContentLoaded", () => {

@@ -104,6 +104,12 @@ helpers = """
 """
 
 
+in_the_middle = """(() => {
+    const { top, bottom } = box.getBoundingClientRect();
+    return top < 0.75 * innerHeight && bottom > 0.25 * innerHeight;
+})()"""
+
+
 def open_figure(name, width, mode, state=None):
     """Its page, with the figure played where a state is given, as by a link."""
     chromium.window(width, mode=mode)
@@ -114,6 +120,8 @@ def open_figure(name, width, mode, state=None):
         fault(name, "is not played by its address")
     if not chromium.wait("document.documentElement.classList.contains('formulas-shown')"):
         fault(name, "formulas were never shown")  # until then the page moves
+    if state is not None and not chromium.wait(in_the_middle, 3):
+        fault(name, "a link to it leads to another place of its page")
     chromium.run("svg().scrollIntoView({block: 'center', behavior: 'instant'})")
 
 

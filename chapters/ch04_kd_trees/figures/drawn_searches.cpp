@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <string_view>
@@ -109,6 +110,25 @@ std::string nearest_so_many(std::size_t k) {
     return k == 1 ? "the nearest" : fmt::format("the {} nearest", word(k));
 }
 
+/// A circle, or what of it lies on the panel.
+void draw_circle(Svg& svg, const PlaneView& view, const Double2& middle, double radius) {
+    const Style style{.stroke = Ink::vermillion, .dashed = true};
+    const Double2 room = glm::min(middle, Double2(size) - middle);
+    if (radius <= std::min(room.x, room.y))
+        return svg.circle(view(middle), view.scale * radius, style);
+    constexpr int parts = 360;
+    std::vector<Point2> arc;
+    for (int i = 0; i <= parts; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / parts;
+        const Double2 p = middle + radius * Double2(std::cos(angle), std::sin(angle));
+        const bool inside = glm::clamp(p, Double2(0.0), Double2(size)) == p;
+        if (inside) arc.push_back(view(p));
+        if (inside && i < parts) continue;
+        if (arc.size() > 1) svg.polyline(arc, style);
+        arc.clear();
+    }
+}
+
 /// How far the farthest of the nearest is away.
 double draw_nearest(Svg& svg, Panel& panel, const Searches& asked) {
     NearestSearch<2> search(panel.tree, asked.k);
@@ -116,10 +136,10 @@ double draw_nearest(Svg& svg, Panel& panel, const Searches& asked) {
     for (const Neighbour& neighbour : best) panel.watcher.found.insert(neighbour.index);
     panel.draw_cells(svg);
     const double radius = best.empty() ? 0.0 : std::sqrt(best.back().squared_distance);
-    const Point2 middle = panel.view(Double2(asked.query));
-    svg.circle(middle, side / size * radius, {.stroke = Ink::vermillion, .dashed = true});
+    draw_circle(svg, panel.view, Double2(asked.query), radius);
     panel.draw_points(svg);
-    svg.circle(middle, 5, {.stroke = Ink::paper, .fill = Ink::vermillion});
+    svg.circle(panel.view(Double2(asked.query)), 5,
+               {.stroke = Ink::paper, .fill = Ink::vermillion});
     panel.draw_legend(svg, nearest_so_many(asked.k));
     return radius;
 }

@@ -40,7 +40,7 @@ std::vector<Visit> watched_walk(const Story& story, const Ray2& ray) {
 }
 
 /// A place in the drawn tree for each node, in depth-first order.
-DrawnTree drawn(const Story& story) {
+DrawnTree drawn(const Story& story, std::optional<unsigned> level) {
     DrawnTree tree{.size = heinonen_size, .segments = story.named, .nodes = {}};
     for (const Turn& turn : story.turns) {
         DrawnTree::Node node{.name = drawn_node_name(story, turn.node),
@@ -52,6 +52,11 @@ DrawnTree drawn(const Story& story) {
         }
         tree.nodes.push_back(std::move(node));
     }
+    if (level)
+        story.tree.for_each_node([&](std::uint32_t index, unsigned depth) {
+            tree.nodes[story.turn_of(index)].ink =
+                depth == *level ? std::optional(Ink::purple) : std::nullopt;
+        });
     return tree;
 }
 
@@ -175,8 +180,9 @@ class Script {
 
 }  // namespace
 
-Svg drawn_walk(std::string title, const Story& story, const Ray2& ray) {
-    return walk_drawing(std::move(title), drawn(story), ray, Script(story, ray).steps);
+Svg drawn_walk(std::string title, const Story& story, const Ray2& ray,
+               std::optional<unsigned> level) {
+    return walk_drawing(std::move(title), drawn(story, level), ray, Script(story, ray).steps);
 }
 
 }  // namespace space::ch07

@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +24,9 @@ using namespace std::string_view_literals;
 
 constexpr std::array builders{"surface area, bins"sv, "surface area, all cuts"sv,
                               "halved by count"sv, "cut in the middle"sv};
+/// Seven segments, one in each leaf, have no more levels.
+constexpr std::array levels{"all levels"sv, "the root"sv, "level 1"sv, "level 2"sv,
+                            "level 3"sv,    "level 4"sv,  "level 5"sv, "level 6"sv};
 constexpr std::array<std::array<Double2, 2>, 7> first_segments{{
     {{{1.5, 2.5}, {12.0, 9.5}}},
     {{{2.0, 1.0}, {5.0, 2.0}}},
@@ -39,6 +45,18 @@ ch07::Story story(const std::vector<Segment>& segments) {
         !requires { config.max_depth; } || requires { config.bins; })
         config.costs = {1.0, 1.0};
     return ch07::watched_build<Builder>(segments, config);
+}
+
+/// The perimeters of the boxes of each level, beside the root's: what a ray that meets the root's
+/// box expects to meet there.
+std::vector<double> chances(const BvhNodes<2>& tree) {
+    std::vector<double> sums;
+    const HitChance<2> chance(tree.nodes[0].box);
+    tree.for_each_node([&](std::uint32_t index, unsigned depth) {
+        if (depth == sums.size()) sums.push_back(0.0);
+        sums[depth] += chance(tree.nodes[index].box);
+    });
+    return sums;
 }
 
 }  // namespace
@@ -73,17 +91,27 @@ Answer bvh_walk(const State& state) {
     const double step = std::max(std::abs(way.x), std::abs(way.y));
     const Ray2 ray{.origin = Point2(from),
                    .direction = step > 0.0 ? Vector2(way / step) : Vector2(1.0f, 0.0f)};
+    const std::vector<double> met = chances(built.tree);
+    const auto offered = std::span(levels).first(std::min(levels.size(), met.size() + 1));
+    const std::size_t shown = state.choice("boxes", 0, offered);
     Svg drawing = ch07::drawn_walk(
-        "A ray's walk through a tree of seven segments, step by step, with what waits", built, ray);
+        "A ray's walk through a tree of seven segments, step by step, with what waits", built, ray,
+        shown > 0 ? std::optional(static_cast<unsigned>(shown - 1)) : std::nullopt);
     double nearest = infinity;
     for (const Segment& segment : built.segments)
         nearest = std::min(nearest, distance_along(ray, segment));
+    std::string summary = nearest < double{infinity}
+                              ? fmt::format("The nearest hit is at t = {}.", written_t(nearest))
+                              : "The ray meets nothing.";
+    if (shown > 1)
+        summary += fmt::format(
+            " Of the boxes of {} a line that meets the root's box meets {:.2f} in the mean.",
+            offered[shown], met[shown - 1]);
     return {.drawing = std::move(drawing),
-            .summary = nearest < double{infinity}
-                           ? fmt::format("The nearest hit is at t = {}.", written_t(nearest))
-                           : "The ray meets nothing.",
+            .summary = std::move(summary),
             .handles = std::move(handles),
-            .choices = {{"builder", "Boxes cut by", builders, builder}}};
+            .choices = {{"builder", "Boxes cut by", builders, builder},
+                        {"boxes", "Boxes of", offered, shown}}};
 }
 
 }  // namespace space::live
