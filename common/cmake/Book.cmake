@@ -535,7 +535,8 @@ function(add_book_test name)
         add_dependencies(${program} ${CMAKE_MATCH_2})
     endforeach()
     add_test(NAME ${name} COMMAND ${program} ${BOOK_CATCH_ARGUMENTS} ${chosen})
-    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900)
+    # Before the hundreds of short ones, figures and exercises, which leave no core waiting at the end.
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900 COST 10)
 endfunction()
 
 # The lists that the command, the tests and the pages read: figures.json, exercises.txt, chapters.txt,
