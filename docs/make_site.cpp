@@ -42,8 +42,9 @@ void copy_mathjax(const fs::path& from, const fs::path& to) {
     }
 }
 
-/// Runs Doxygen on the configured Doxyfile, which leaves the output to be named here.
-void run_doxygen(const docs::Places& places, const std::string& aliases, const fs::path& site) {
+/// The settings for Doxygen: the configured Doxyfile, which leaves the output to be named here.
+void write_doxyfile(const docs::Places& places, const std::string& aliases,
+                    const fs::path& output) {
     const fs::path& work = places.pages;
     std::string settings =
         read_file(fs::path(BOOK_DOXYFILE)) + docs::figure_aliases(places) + aliases +
@@ -51,7 +52,7 @@ void run_doxygen(const docs::Places& places, const std::string& aliases, const f
             "LAYOUT_FILE = \"{0}/layout.xml\"\n"
             "STRIP_FROM_PATH = \"{0}/texts\" \"{2}\"\nEXAMPLE_PATH += \"{0}\"\n"
             "IMAGE_PATH = \"{0}/images\"\nOUTPUT_DIRECTORY = \"{1}\"\nHTML_OUTPUT = .\n",
-            work.string(), site.string(), book_root().string());
+            work.string(), output.string(), book_root().string());
     // Each text by its name: patterns, which could leave out the texts as they were written, fail
     // in a folder with an umlaut.
     std::set<fs::path> texts;
@@ -59,9 +60,12 @@ void run_doxygen(const docs::Places& places, const std::string& aliases, const f
         if (entry.path().extension() == ".dox") texts.insert(entry.path());
     for (const fs::path& text : texts) settings += fmt::format("INPUT += \"{}\"\n", text.string());
     write_file(work / "Doxyfile", settings);
-    fs::create_directories(site);
-    const std::string command =
-        fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, (work / "Doxyfile").string());
+}
+
+void run_doxygen(const fs::path& doxyfile, const fs::path& output) {
+    fs::remove_all(output);
+    fs::create_directories(output);
+    const std::string command = fmt::format("\"{}\" \"{}\"", BOOK_DOXYGEN, doxyfile.string());
     const int status = std::system(command.c_str());
     constexpr int interrupted = 128 + SIGINT;  // a shell's word for it
     if (WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == interrupted)
@@ -119,17 +123,24 @@ int make_site(int argc, char** argv) {
            "--runs", places.runs,
            "what ./book run wrote; newer figures and results than the committed ones are shown")
         ->capture_default_str();
+    bool again = false;
+    app.add_flag(
+        "--again", again,
+        "take what Doxygen made the last time; a test sees that all else is made the same");
     parse_command_line(app, argc, argv);
 
     // Everything is made beside the old site, which stands until the new one is whole.
     site = fs::absolute(site);
-    const fs::path work = places.configured / "site_pages", fresh = site.string() + ".new";
+    const fs::path work = places.configured / "site_pages",
+                   doxygens = places.configured / "site_doxygen", fresh = site.string() + ".new";
     fs::remove_all(work);
     fs::remove_all(fresh);
     places.pages = work;
     docs::write_pages(places);
     const Live live = read_live();
-    run_doxygen(places, live_alias(live), fresh);
+    write_doxyfile(places, live_alias(live), doxygens);
+    if (!again) run_doxygen(work / "Doxyfile", doxygens);
+    fs::copy(doxygens, fresh, fs::copy_options::recursive);
     docs::finish_pages(fresh, live.ids);
     add_live(live, fresh);
     docs::write_search_text(fresh);
