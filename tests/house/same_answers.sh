@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# same_answers.sh PROGRAM OTHER: proves that both print the same, and something.
+# same_answers.sh PROGRAM OTHER ...: proves that all print the same, and something.
 set -euo pipefail
-one=$("$1")
-other=$("$2")
-[[ $one == *hits* ]] || { echo "$1 prints nothing" && exit 1; }
-diff <(echo "$one") <(echo "$other") || { echo "differs: $1 (<) and $2 (>)" && exit 1; }
+program=$1
+one=$("$program")
+[[ $one == *hits* ]] || { echo "$program prints nothing" && exit 1; }
+for other in "${@:2}"; do
+    said=$("$other")
+    diff <(echo "$one") <(echo "$said") || { echo "differs: $program (<) and $other (>)" && exit 1; }
+done
