@@ -52,9 +52,7 @@ std::vector<Measured> series(std::size_t small_sizes, std::size_t large_sizes) {
     return measured;
 }
 
-int rounds(Amount amount) {
-    return amount == Amount::full ? 5 : 3;
-}
+constexpr int rounds = 3;
 
 /// How often one run repeats its work, so that it takes some milliseconds with few triangles too.
 int repeats_for(Amount amount, int work, double triangles) {
@@ -234,7 +232,7 @@ VertexLeaks measure_leaks(const Options& options) {
     if (options.counts || options.small)
         for (const auto& run : candidates) run();
     else
-        ms = interleaved_medians(candidates, full ? 5 : 3);
+        ms = interleaved_medians(candidates, rounds);
     VertexLeaks counted{.rays = rays.size(), .float_ms = ms[0], .double_ms = ms[1]};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         counted.exact += rays[i].exact;
@@ -269,7 +267,7 @@ std::vector<GrowthPoint> measure_growth(const Options& options) {
                 for (int i = 0; i < repeats; ++i)
                     do_not_optimize(rasterise(scene, width, height).pixels);
             }};
-        const std::vector<double> ms = interleaved_medians(candidates, rounds(amount));
+        const std::vector<double> ms = interleaved_medians(candidates, rounds);
         growth.push_back({.scene = measured.name,
                           .triangles = triangles,
                           .naive_us = 1000.0 * ms[0] / (repeats * naive_width * naive_height),
@@ -307,7 +305,7 @@ std::vector<SharePoint> measure_shares(const Options& options) {
                 for (int i = 0; i < rest_repeats; ++i)
                     do_not_optimize(render<NoCounts>(scene, Player{record}, settings).image);
             }};
-        const std::vector<double> ms = interleaved_medians(candidates, 2 * rounds(amount) + 1);
+        const std::vector<double> ms = interleaved_medians(candidates, 2 * rounds + 1);
         shares.push_back({measured.name, triangles, ms[0] / repeats, ms[1] / rest_repeats});
         progress.step();
     }

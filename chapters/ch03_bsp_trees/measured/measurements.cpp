@@ -70,14 +70,14 @@ Limits limits(Amount amount) {
                     .max_fragments = 100'000,
                     .rays = 300,
                     .edge_rays = 20'000,
-                    .rounds = 3};
+                    .rounds = 1};
         default:
             return {.sizes = 7,
                     .max_classified = 500'000'000,
                     .max_fragments = 1'500'000,
                     .rays = 1'000,
-                    .edge_rays = 1'000'000,
-                    .rounds = 5};
+                    .edge_rays = 500'000,
+                    .rounds = 3};
     }
 }
 

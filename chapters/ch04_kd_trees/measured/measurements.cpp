@@ -14,7 +14,7 @@ Limits limits(const Options& options) {
         case Amount::quick:
             return {.width = 80,
                     .height = 60,
-                    .sizes = 4,
+                    .sizes = 3,
                     .rays = 2'000,
                     .aimed_rays = 20'000,
                     .rounds = 3};
@@ -24,7 +24,7 @@ Limits limits(const Options& options) {
                     .sizes = 7,
                     .rays = 10'000,
                     .aimed_rays = 200'000,
-                    .rounds = options.counts ? 0 : 5};
+                    .rounds = options.counts ? 0 : 3};
     }
 }
 

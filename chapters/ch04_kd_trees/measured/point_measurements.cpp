@@ -33,7 +33,7 @@ PointLimits point_limits(const Options& options) {
             return {.most_points = options.quick ? 100'000u : 10'000'000u,
                     .queries = 10'000,
                     .checked = 5,
-                    .rounds = 9};
+                    .rounds = 5};
     }
 }
 
@@ -54,14 +54,19 @@ struct SearchCounter : NoObserver {
 template <int D>
 struct PointTask {
     std::vector<Point<D>> points, queries;
+    Stopwatch stopwatch = {};
     KdPoints<D> tree;
+    double tree_ms;
     NanoflannPoints<D> peer;
+    double peer_ms;
 
     PointTask(std::vector<Point<D>> all, std::vector<Point<D>> asked)
         : points(std::move(all)),
           queries(std::move(asked)),
           tree(KdPoints<D>::build(points)),
-          peer(points) {}
+          tree_ms(stopwatch.lap().count()),
+          peer(points),
+          peer_ms(stopwatch.lap().count()) {}
 };
 
 /// Whether a loop over all points finds the same.
@@ -128,18 +133,19 @@ void time_nearest(const PointTask<D>& task, int rounds, NearestQueries& measured
 }
 
 template <int D>
-void time_builds(const std::vector<Point<D>>& points, PointSet& set) {
-    std::vector<std::function<void()>> builds{
-        [&] { do_not_optimize(KdPoints<D>::build(points).size); }};
-    if (NanoflannPoints<D>::available)
-        builds.emplace_back([&] {
-            const NanoflannPoints<D> peer(points);
-            do_not_optimize(&peer);
-        });
-    const int rounds = points.size() > 1'000'000 ? 1 : 3;  // or it would take minutes
-    const auto medians = interleaved_medians(builds, rounds);
+void time_builds(const PointTask<D>& task, PointSet& set) {
+    std::vector<double> medians{task.tree_ms, task.peer_ms};
+    if (task.points.size() <= 1'000'000) {  // larger ones are not built again: it takes minutes
+        std::vector<std::function<void()>> builds{
+            [&] { do_not_optimize(KdPoints<D>::build(task.points).size); },
+            [&] {
+                const NanoflannPoints<D> peer(task.points);
+                do_not_optimize(&peer);
+            }};
+        medians = interleaved_medians(builds, 3);
+    }
     set.build_ms = medians[0];
-    if (medians.size() > 1) set.peer_build_ms = medians[1];
+    if (NanoflannPoints<D>::available) set.peer_build_ms = medians[1];
 }
 
 template <int D>
@@ -153,8 +159,8 @@ PointSet measure_set(Places places, std::size_t count, const Options& options) {
                  .dimensions = D,
                  .points = count};
     const bool timed = !options.small && !options.counts;
-    if (timed) time_builds<D>(made, set);
     const PointTask<D> task(std::move(made), std::move(queries));
+    if (timed) time_builds<D>(task, set);
     for (const std::size_t k : {1, 8, 64}) {
         set.nearest.push_back(count_nearest<D>(task, k, limits.checked));
         if (timed) time_nearest<D>(task, limits.rounds, set.nearest.back());
@@ -191,6 +197,7 @@ std::vector<PointSet> measure_point_searches(const Options& options) {
     std::vector<PointSet> sets;
     for (std::size_t count = 1'000; count <= point_limits(options).most_points; count *= 10)
         for (const Places places : {Places::uniform, Places::clustered}) {
+            if (count > 1'000'000 && places == Places::clustered) continue;  // half a minute each
             sets.push_back(measure_set<2>(places, count, options));
             sets.push_back(measure_set<3>(places, count, options));
         }

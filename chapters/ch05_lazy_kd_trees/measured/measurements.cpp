@@ -21,8 +21,8 @@ Limits limits(const Options& options) {
                     .width = 320,
                     .height = 240,
                     .rays = 20'000,
-                    .field_cells = 4'096,
-                    .ball_levels = 5,
+                    .field_cells = 1'024,
+                    .ball_levels = 4,
                     .picture_levels = 4,
                     .list_sizes = 3,
                     .rounds = 1};

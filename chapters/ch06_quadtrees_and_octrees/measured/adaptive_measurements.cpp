@@ -56,10 +56,12 @@ struct Way {
     std::string_view rule;
     AdaptiveConfig config;
 };
-std::vector<Way> ways(bool other_first_cells) {
+/// Other thresholds and first cells are for one scene: the tables show no others.
+std::vector<Way> ways(bool with_others) {
     using Evidence = AdaptiveConfig::Evidence;
     std::vector<Way> all;
     for (const int threshold : {2, 4, AdaptivePoint::usual_threshold, 16, 32}) {
+        if (!with_others && threshold != AdaptivePoint::usual_threshold) continue;
         const AdaptiveConfig config{.threshold = threshold,
                                     .first_cell = AdaptivePoint::usual_first_cell};
         AdaptiveConfig corners = config, colors = config;
@@ -71,7 +73,7 @@ std::vector<Way> ways(bool other_first_cells) {
     const AdaptiveConfig usual{.threshold = AdaptivePoint::usual_threshold,
                                .first_cell = AdaptivePoint::usual_first_cell};
     all.push_back({by_triangles, usual});
-    if (!other_first_cells) return all;
+    if (!with_others) return all;
     for (const int first_cell : {2, 4, 8, 32, 64}) {
         AdaptiveConfig all_samples = usual;
         all_samples.first_cell = first_cell;

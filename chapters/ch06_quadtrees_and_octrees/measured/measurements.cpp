@@ -23,7 +23,7 @@ Limits limits(const Options& options) {
                     .most_triangles = options.quick ? 20'000u : 1'000'000u,
                     .most_points = options.quick ? 100'000u : 1'000'000u,
                     .queries = 5'000,
-                    .rounds = options.counts ? 0 : 5};
+                    .rounds = options.counts ? 0 : 3};
     }
 }
 

@@ -19,12 +19,12 @@ Limits limits(const Options& options) {
                     .naive_tests = 3'000'000,
                     .rounds = 3};
         default:
-            return {.width = 200,
-                    .height = 150,
+            return {.width = 160,
+                    .height = 120,
                     .most_triangles = 2'200'000,
-                    .aimed_rays = 100'000,
+                    .aimed_rays = 50'000,
                     .naive_tests = 30'000'000,
-                    .rounds = options.counts ? 0 : 5};
+                    .rounds = options.counts ? 0 : 3};
     }
 }
 

@@ -20,11 +20,11 @@ namespace {
 
 /// How much is measured.
 struct Effort {
-    int rounds = 5;
+    int rounds = 3;
     int turns = 1'000'000;                     ///< of a lock, by all threads together
     std::chrono::milliseconds preempted{200};  ///< how long a holder keeps sleeping
     std::vector<std::string> scenes = {"icosphere:122", "soup:300000"};
-    int build_rounds = 21;
+    int build_rounds = 15;
 };
 
 Effort effort(const Options& options) {

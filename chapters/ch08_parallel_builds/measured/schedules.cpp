@@ -5,6 +5,7 @@
 #include "chapters/ch08_parallel_builds/record_tasks.hpp"
 #include "chapters/ch08_parallel_builds/simulator.hpp"
 #include "common/measure.hpp"
+#include "common/parallel.hpp"
 #include "common/program/error.hpp"
 #include "common/program/progress.hpp"
 #include "common/scene.hpp"
@@ -61,8 +62,8 @@ RecordedBuild recorded(const std::string& scene, std::vector<Triangle> triangles
     RecordedBuild build{scene, std::move(triangles)};
     TaskGraph& graph = build.graph;
     if (is_timed) {
-        graph = timed_tasks(build.triangles, 5);
-        build.scaled = unwatched_ns(build.triangles, 5) / graph.total();
+        graph = timed_tasks(build.triangles, 3);
+        build.scaled = unwatched_ns(build.triangles, 3) / graph.total();
         for (TaskNode& node : graph.nodes) node.cost *= build.scaled;
         graph.boxing *= build.scaled;
         graph.joining *= build.scaled;
@@ -102,8 +103,8 @@ GraphPoint described(const RecordedBuild& build) {
     return point;
 }
 
-SimulatedPoint simulated(const RecordedBuild& build, const NamedMethod& method, unsigned cores,
-                         const MeasuredCosts& costs, bool has_bandwidth) {
+SimulatedPoint simulated(const RecordedBuild& build, const MeasuredCosts& costs,
+                         const NamedMethod& method, unsigned cores, bool has_bandwidth) {
     const Schedule schedule =
         simulate(build.graph, method.method, cores, scheduling_costs(costs, has_bandwidth));
     const double all = schedule.makespan * cores;
@@ -119,17 +120,28 @@ SimulatedPoint simulated(const RecordedBuild& build, const NamedMethod& method, 
 
 /// All methods from 1 to 256 cores, with as much memory as they ask for; on many cores also with
 /// this machine's.
-void simulate_all(const RecordedBuild& build, const MeasuredCosts& costs, bool small,
+void simulate_all(const RecordedBuild& build, const MeasuredCosts& costs, const Options& options,
                   std::vector<SimulatedPoint>& points) {
-    std::vector<NamedMethod> methods = compared_methods(small);
-    for (const NamedMethod& method : condition_methods(small)) methods.push_back(method);
-    for (const NamedMethod& method : methods)
-        for (unsigned cores = 1; cores <= 256; cores *= 2)
-            points.push_back(simulated(build, method, cores, costs, false));
-    if (costs.bandwidth_share() == 0.0) return;
-    for (const NamedMethod& method : compared_methods(small))
-        for (unsigned cores = 1; cores <= 256; cores *= 2)
-            points.push_back(simulated(build, method, cores, costs, true));
+    struct Simulation {
+        NamedMethod method;
+        unsigned cores;
+        bool has_bandwidth;
+    };
+    std::vector<Simulation> all;
+    const auto add = [&](const std::vector<NamedMethod>& methods, bool has_bandwidth) {
+        for (const NamedMethod& method : methods)
+            for (unsigned cores = 1; cores <= 256; cores *= 2)
+                all.push_back({method, cores, has_bandwidth});
+    };
+    add(compared_methods(options.small), false);
+    add(condition_methods(options.small), false);
+    if (costs.bandwidth_share() > 0.0) add(compared_methods(options.small), true);
+    const std::size_t first = points.size();
+    points.resize(first + all.size());
+    parallel_for(all.size(), options.threads, 1, [&](std::size_t i) {
+        const auto& [method, cores, has_bandwidth] = all[i];
+        points[first + i] = simulated(build, costs, method, cores, has_bandwidth);
+    });
 }
 
 /// Nothing for a file that this machine does not have; says so.
@@ -188,10 +200,10 @@ ScheduleMeasurements measure_schedules(const Options& options) {
             // By the first scene, which is among the larger ones.
             if (measured.is_timed && measured.graphs.size() == 1)
                 measured.costs = measure_costs(build, rounds);
-            simulate_all(build, measured.costs, options.small, measured.simulated);
+            simulate_all(build, measured.costs, options, measured.simulated);
             if (!measured.is_timed) continue;
             for (const ValidationPoint& point :
-                 validate(build, scheduling_costs(measured.costs, true), rounds))
+                 validate(build, scheduling_costs(measured.costs, true), 3))
                 measured.validation.push_back(point);
         }
         progress.step();

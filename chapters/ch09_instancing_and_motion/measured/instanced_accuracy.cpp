@@ -145,7 +145,7 @@ std::vector<AccuracyPoint> measure_accuracy(const Options& options) {
     const bool small = options.amount() == Amount::small;
     std::vector<double> places{0.0, 1e2, 1e3, timed_place, 1e5, 1e6};
     if (small) places = {0.0, 1e6};
-    const int rounds = small || options.counts ? 0 : 5;
+    const int rounds = small || options.counts ? 0 : 3;
     std::vector<AccuracyPoint> all;
     Progress progress("instances' answers", places.size());
     for (const double away : places) {

@@ -109,7 +109,7 @@ NestingPoint measure_nested(const std::string& scene, const Options& options) {
     std::vector<std::function<void()>> turns;
     for (std::size_t i = 0; i < runs.size(); ++i)
         turns.push_back([&, i] { runs[i].run(rays, answers[i]); });
-    const std::vector<double> ms = interleaved_medians(turns, timed ? 5 : 0);
+    const std::vector<double> ms = interleaved_medians(turns, timed ? 3 : 0);
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (timed) runs[i].trace.ray_ns = ms[i] * 1e6 / double(rays.size());
         compare_answers(answers[0], answers[i], runs[i].trace);

@@ -143,7 +143,7 @@ std::vector<LevelsPoint> measure_levels(const Options& options) {
     if (amount == Amount::small) objects = {{"icosphere:7", 2}};
     if (amount == Amount::full)
         objects.insert(objects.end(), {{"bunny", 4}, {"dragon_48k", 4}, {"dragon_871k", 2}});
-    const int rounds = !timed ? 0 : amount == Amount::full ? 5 : 3;
+    const int rounds = timed ? 3 : 0;
     std::vector<LevelsPoint> all;
     Progress progress("two levels", objects.size());
     for (const auto& [name, most] : objects) {

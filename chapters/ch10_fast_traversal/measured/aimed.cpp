@@ -48,8 +48,8 @@ void measure_tracers(const AimedScene& scene, int rounds, FastMeasurements& meas
     all.push_back(our_tracer("binary, watertight test",
                              Bvh<BinnedBuilder, Watertight>::build(scene.triangles)));
     if (rounds > 0)
-        for (Tracer& tracer : embree_tracers(scene.triangles))
-            if (tracer.name != embree_high) all.push_back(std::move(tracer));
+        for (Tracer& tracer : embree_tracers(scene.triangles, {embree_default, embree_robust}))
+            all.push_back(std::move(tracer));
     std::vector<std::function<void()>> runs;
     for (const Tracer& tracer : all)
         runs.push_back([&] { tracer.trace(scene.rays, ManyQuery::closest); });

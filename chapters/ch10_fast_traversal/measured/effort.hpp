@@ -18,14 +18,14 @@ struct FastScene {
 
 /// By the options' amount. rounds = 0: nothing is timed.
 struct FastEffort {
-    int width = 320, height = 240, rounds = 5;
+    int width = 320, height = 240, rounds = 3;
     int mode_width = 640, mode_height = 480;  ///< packets hang on how many pixels a triangle has
     std::vector<FastScene> scenes;            ///< beside Embree
     std::vector<FastScene> ladder;            ///< a small one, a large one, one of long triangles
     std::vector<FastScene> modes;
     std::vector<std::string> sizes;  ///< one scene as it grows
     std::vector<std::string> aimed;  ///< small enough for the naive loop
-    std::size_t aimed_rays = 100'000;
+    std::size_t aimed_rays = 50'000;
     std::size_t most_high = 400'000;  ///< triangles over which better trees are built
 };
 
@@ -40,7 +40,7 @@ inline FastEffort fast_effort(const Options& options) {
                     "soup:100000", "soup:316228", "soup:1000000", "soup:2000000"};
     effort.aimed = {"icosphere:8", "lattice:1", "slivers"};
     if (options.amount() == Amount::quick) {
-        effort.width = 160, effort.height = 120, effort.rounds = 3;
+        effort.width = 160, effort.height = 120;
         effort.mode_width = 320, effort.mode_height = 240;
         effort.scenes = {{"stadium"}, {"icosphere:40"}, {"soup:30000"}, {"building", true}};
         effort.ladder = {{"stadium"}, {"icosphere:70"}, {"building", true}};

@@ -4,17 +4,27 @@
 #include "common/embree_tree.hpp"
 #endif
 
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace space::ch10 {
 
 #ifdef BOOK_HAS_EMBREE
 
-std::vector<Tracer> embree_tracers(const std::vector<Triangle>& triangles) {
-    const auto tracer = [&](std::string_view name, EmbreeFlavour flavour) {
-        return tracer_of<DenormalsAreZero>(
-            std::string(name), std::make_shared<const EmbreeTree>(triangles, 1, flavour));
-    };
-    return {tracer(embree_default, {}), tracer(embree_robust, {.flags = RTC_SCENE_FLAG_ROBUST}),
-            tracer(embree_high, {.quality = RTC_BUILD_QUALITY_HIGH})};
+std::vector<Tracer> embree_tracers(const std::vector<Triangle>& triangles,
+                                   std::initializer_list<std::string_view> names) {
+    std::vector<Tracer> tracers;
+    for (const std::string_view name : names) {
+        EmbreeFlavour flavour;
+        if (name == embree_robust) flavour.flags = RTC_SCENE_FLAG_ROBUST;
+        if (name == embree_high) flavour.quality = RTC_BUILD_QUALITY_HIGH;
+        tracers.push_back(tracer_of<DenormalsAreZero>(
+            std::string(name), std::make_shared<const EmbreeTree>(triangles, 1, flavour)));
+    }
+    return tracers;
 }
 
 double embree_build_ms(const std::vector<Triangle>& triangles) {
@@ -25,7 +35,8 @@ double embree_build_ms(const std::vector<Triangle>& triangles) {
 
 #else
 
-std::vector<Tracer> embree_tracers(const std::vector<Triangle>&) {
+std::vector<Tracer> embree_tracers(const std::vector<Triangle>&,
+                                   std::initializer_list<std::string_view>) {
     return {};
 }
 double embree_build_ms(const std::vector<Triangle>&) {

@@ -79,8 +79,8 @@ std::vector<Tracer> rungs(const TracedScene& scene, const FastEffort& effort) {
         all.push_back(
             our_tracer("a better tree", WideBvh<8, SpatialSplitBuilder>::build(scene.triangles)));
     if (effort.rounds > 0)
-        for (Tracer& tracer : embree_tracers(scene.triangles))
-            if (tracer.name != embree_high) all.push_back(std::move(tracer));
+        for (Tracer& tracer : embree_tracers(scene.triangles, {embree_default, embree_robust}))
+            all.push_back(std::move(tracer));
     return all;
 }
 

@@ -83,7 +83,7 @@ void add_modes(const TracedScene& scene, const FastBvh<>& tree, RayKind kind,
         add("sorted, interleaved 8", sorted(interleaved(8)));
     }
     if (rounds > 0) {
-        const std::vector<double> ms = thread_medians(runs, rounds);
+        const std::vector<double> ms = thread_medians(runs, rounds, true);
         for (std::size_t i = 0; i < points.size(); ++i) {
             points[i].ns = 1e6 * ms[i] / double(rays.size());
             points[i].single_ns = 1e6 * ms[0] / double(rays.size());

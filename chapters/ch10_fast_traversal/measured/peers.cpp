@@ -25,11 +25,11 @@ BuildPoint build_point(const TracedScene& scene, std::string_view structure,
             .cost = shape.sah_cost.value_or(0.0)};
 }
 
-/// Whole builds, interleaved; of large scenes fewer.
+/// Whole builds, interleaved; of large scenes one.
 void time_builds(const TracedScene& scene, const FastEffort& effort,
                  std::vector<BuildPoint>& points) {
     if (effort.rounds == 0) return;
-    const int rounds = scene.triangles.size() < 300'000 ? effort.rounds : 2;
+    const int rounds = scene.triangles.size() < 300'000 ? effort.rounds : 1;
     std::vector<std::vector<double>> times(points.size());
     const auto ours = [&](const auto& build) {
         const double before = process_ms();
@@ -83,7 +83,9 @@ void measure_peers(const TracedScene& scene, const Options& options, FastMeasure
     if (has_high) all.push_back(our_tracer("high", FastHighBvh<>::build(scene.triangles)));
     const std::size_t ours = all.size();
     if (effort.rounds > 0)
-        for (Tracer& tracer : embree_tracers(scene.triangles)) all.push_back(std::move(tracer));
+        for (Tracer& tracer :
+             embree_tracers(scene.triangles, {embree_default, embree_robust, embree_high}))
+            all.push_back(std::move(tracer));
 
     std::vector<BuildPoint> builds;
     for (const Tracer& tracer : all)

@@ -29,8 +29,8 @@ void measure_sizes(const Options& options, FastMeasurements& measured) {
         }
         all.push_back(our_tracer("binary", Bvh<BinnedBuilder>::build(scene->triangles)));
         if (effort.rounds > 0)
-            for (Tracer& tracer : embree_tracers(scene->triangles))
-                if (tracer.name == embree_default) all.push_back(std::move(tracer));
+            for (Tracer& tracer : embree_tracers(scene->triangles, {embree_default}))
+                all.push_back(std::move(tracer));
         for (const RayKind kind : {camera_kind, diffuse_kind}) {
             const std::vector<double> ns = ray_times(all, *scene, kind, effort.rounds);
             for (std::size_t i = 0; i < all.size(); ++i) {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <ctime>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -86,13 +87,14 @@ inline std::uint64_t differences(const Answers& got, const Answers& wanted, Many
     return count;
 }
 
-/// Embree by default, robust, and of high quality; none where it is not installed.
-std::vector<Tracer> embree_tracers(const std::vector<Triangle>& triangles);
 /// The time of Embree's default build, in milliseconds of one thread; 0 where it is not installed.
 double embree_build_ms(const std::vector<Triangle>& triangles);
 /// The names.
 inline constexpr std::string_view embree_default = "Embree", embree_robust = "Embree robust",
                                   embree_high = "Embree high";
+/// Those of Embree that are asked for, by their names; none where it is not installed.
+std::vector<Tracer> embree_tracers(const std::vector<Triangle>& triangles,
+                                   std::initializer_list<std::string_view> names);
 
 /// The processor's time of the calling thread: others who use the machine are not in it, but for
 /// the caches that they fill.
@@ -109,11 +111,12 @@ inline double process_ms() {
     return 1e3 * double(time.tv_sec) + 1e-6 * double(time.tv_nsec);
 }
 
-/// The median time of each, in milliseconds of the thread, run in turn after a round of warming up.
+/// The median time of each, in milliseconds of the thread, run in turn after a round of warming up;
+/// without it where they have just been run.
 inline std::vector<double> thread_medians(std::span<const std::function<void()>> candidates,
-                                          int rounds) {
+                                          int rounds, bool are_warm = false) {
     std::vector<std::vector<double>> times(candidates.size());
-    for (int round = -1; round < rounds; ++round)
+    for (int round = are_warm ? 0 : -1; round < rounds; ++round)
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             const double before = thread_ms();
             candidates[i]();

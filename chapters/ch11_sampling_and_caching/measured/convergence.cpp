@@ -166,7 +166,7 @@ ConvergenceSizes sizes_of(const Options& options) {
             break;
     }
     return {.caustic_width = 160,
-            .room_width = 160,
+            .room_width = 128,
             .reference_samples = 512,
             .reference_photons = 1'000'000,
             .batches = 12,
@@ -178,8 +178,8 @@ ConvergenceSizes sizes_of(const Options& options) {
                        {0.4, {24, 72}, 128},
                        {0.3, {36, 108}, 256},
                        {0.2, {48, 144}, 256},
-                       {0.12, {48, 144}, 256}},
-            .gather_rays = {1, 4},
+                       {0.15, {48, 144}, 256}},
+            .gather_rays = {1, 2},
             .samples = 16};
 }
 
@@ -224,8 +224,8 @@ Convergence measure_caustic(const Options& options) {
     return found;
 }
 
-Convergence measure_room(const std::string& name, int width, const Options& options) {
-    const ConvergenceSizes sizes = sizes_of(options);
+Convergence measure_room(const std::string& name, int width, const ConvergenceSizes& sizes,
+                         const Options& options) {
     const TracedScene scene = traced(name, options, width);
     const References references = path_references(scene, sizes.reference_samples, options.threads);
     Convergence found = begun(scene, references, 0.02);
@@ -257,9 +257,10 @@ std::vector<Convergence> measure_convergence(const Options& options) {
     std::vector<Convergence> all;
     if (options.counts) return all;
     all.push_back(measure_caustic(options));
-    const int width = sizes_of(options).room_width;
-    all.push_back(measure_room("interior", width, options));
-    all.push_back(measure_room("box", width * 3 / 5, options));
+    ConvergenceSizes sizes = sizes_of(options);
+    all.push_back(measure_room("interior", sizes.room_width, sizes, options));
+    if (options.amount() == Amount::full) sizes.caches.pop_back();  // the dearest tells no more
+    all.push_back(measure_room("box", sizes.room_width * 3 / 5, sizes, options));
     return all;
 }
 
