@@ -24,6 +24,12 @@ static void __tsan_release(void*) {}
 
 namespace space {
 
+/// TBB ends the program where the machine gives it a thread less than it asks for, and beyond 255
+/// it warns. More than four on a core would wait for each other; a test asks for some on any.
+static unsigned most_threads() {
+    return std::max(16u, 4 * static_cast<unsigned>(tbb::this_task_arena::max_concurrency()));
+}
+
 struct WorkStealing::Threads {
     explicit Threads(unsigned threads)
         : allowed(tbb::global_control::max_allowed_parallelism,
@@ -35,7 +41,7 @@ struct WorkStealing::Threads {
 };
 
 WorkStealing::WorkStealing(unsigned threads)
-    : threads_(threads), tbb_(std::make_unique<Threads>(threads)) {}
+    : threads_(threads), tbb_(std::make_unique<Threads>(std::min(threads, most_threads()))) {}
 WorkStealing::~WorkStealing() = default;
 
 void WorkStealing::for_each(std::size_t count, const std::function<void(std::size_t)>& body) {

@@ -28,7 +28,8 @@ Options small_options() {
 }
 
 CompareEffort two_blocks() {
-    CompareEffort effort{.width = 8, .height = 6, .turns = 0, .most_placed = 100'000};
+    CompareEffort effort{
+        .width = 8, .height = 6, .turns = 0, .most_turns = 0, .most_placed = 100'000};
     effort.blocks = {{"boxes", "boxes:12"}, {"jacks", "graph/jacks:0"}};
     return effort;
 }
@@ -151,7 +152,7 @@ TEST_CASE("a structure that lies is found out, and one that throws gives up alon
 
 TEST_CASE("times are there where they are asked for, the lazy tree's nodes apart") {
     CompareEffort effort = two_blocks();
-    effort.turns = 2;
+    effort.turns = effort.most_turns = 2;
     const auto rows =
         compare_on(make_subject("boxes", "boxes:12", 1), structures(), effort, small_options());
     for (const ComparedRow& row : rows) {

@@ -3,9 +3,10 @@
 #include "chapters/ch07_bounding_volume_hierarchies/bvh.hpp"
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 #include "chapters/ch10_fast_traversal/interleaved.hpp"
-#include "chapters/ch10_fast_traversal/measured/aimed_rays.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
 #include "chapters/ch10_fast_traversal/measured/tracer.hpp"
+#include "chapters/ch10_fast_traversal/measured/wrong_hits.hpp"
+#include "common/aimed_rays.hpp"
 
 #include <algorithm>
 #include <string>

@@ -37,8 +37,8 @@ Sizes sizes_for(const Options& options) {
 }
 
 /// From all around: half at points of edges, half at vertices.
-std::vector<Ray> rays_at_edges(std::span<const Triangle> triangles, std::size_t count,
-                               std::uint64_t seed) {
+std::vector<Ray> rays_at_edges_exactly(std::span<const Triangle> triangles, std::size_t count,
+                                       std::uint64_t seed) {
     std::vector<Ray> rays = rays_from_around(triangles, count, seed);
     Pcg32 random(seed);
     for (std::size_t i = 0; i < count; ++i) {
@@ -196,7 +196,7 @@ WalkCounts measure_walk_counts(const Options& options) {
     for (const char* const name : sizes.scenes) {
         const std::vector<Triangle> triangles = make_scene(name, options.seed).mesh.triangles();
         const std::vector<Ray> rays = rays_within(triangles, sizes.rays, options.seed),
-                               aimed = rays_at_edges(triangles, sizes.rays, options.seed);
+                               aimed = rays_at_edges_exactly(triangles, sizes.rays, options.seed);
         const BvhNodes<3> binary = BinnedBuilder::build<3>(triangles);
         for (const auto way : {CollapseConfig::Way::greedy, CollapseConfig::Way::least_cost}) {
             counts.collapses.push_back(collapse_point<4>(name, binary, triangles, rays, way));

@@ -1,12 +1,11 @@
 #include "chapters/ch12_comparison/measured/accuracy_data.hpp"
 #include "chapters/ch12_comparison/measured/compared_scenes.hpp"
+#include "common/aimed_rays.hpp"
 #include "common/measure.hpp"
-#include "common/pcg32.hpp"
 #include "common/program/error.hpp"
 #include "common/program/file.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/provenance.hpp"
-#include "common/random_rays.hpp"
 #include "common/scene.hpp"
 
 #include <fmt/format.h>
@@ -28,28 +27,6 @@ std::size_t accuracy_ray_count(const Options& options) {
 }
 constexpr int accuracy_turns = 3;
 
-/// From all around at edges and vertices, as near as floats come; every other pair lies in a plane
-/// across an axis, or within a float's last place of it: boxes of triangles and of nodes have faces
-/// there.
-std::vector<Ray> rays_where_tests_fail(const std::vector<Triangle>& triangles,
-                                       const Options& options) {
-    std::vector<Ray> rays = rays_from_around(triangles, accuracy_ray_count(options), options.seed);
-    Pcg32 random(options.seed);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Triangle& triangle =
-            triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];
-        Point3 aim = triangle.a;
-        if (i % 2 == 0) aim += random.uniform(0.0f, 1.0f) * (triangle.b - triangle.a);
-        rays[i].direction = aim - rays[i].origin;
-        if (i % 4 < 2) {
-            const int axis = static_cast<int>(random.below(3));
-            rays[i].origin[axis] = aim[axis];
-            rays[i].direction[axis] = random.uniform(-0x1p-24f, 0x1p-24f) * aim[axis];
-        }
-    }
-    return rays;
-}
-
 /// A scene, its rays and the right answers.
 struct AccuracyScene {
     std::string name;
@@ -60,7 +37,7 @@ struct AccuracyScene {
     AccuracyScene(std::string_view spec, const Structure& naive, const Options& options)
         : name(spec),
           triangles(make_scene(spec, options.seed).mesh.triangles()),
-          rays(rays_where_tests_fail(triangles, options)),
+          rays(rays_at_edges(triangles, accuracy_ray_count(options), options.seed)),
           right(rays.size()) {
         const BuiltStructure exact = naive.variants.front().build_from_triangles(triangles, {});
         exact.trace({.rays = rays, .hits = right, .threads = std::max(1u, options.threads)});

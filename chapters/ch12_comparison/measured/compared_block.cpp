@@ -25,9 +25,13 @@ namespace {
 /// Up to so many triangles naive tracing tells what is right.
 constexpr std::size_t most_naive = 10'000;
 /// Ray-triangle tests in which naive tracing of one kind of rays is timed.
-constexpr std::size_t naive_tests = 10'000'000;
-/// A structure that takes longer for one turn has no other.
-constexpr double slow_turn_ms = 300.0;
+constexpr std::size_t naive_tests = 5'000'000;
+/// A structure has more turns than it must until they have taken so long.
+constexpr double enough_ms = 200.0;
+/// A slow one has fewer where they would take longer.
+constexpr double patience_ms = 1000.0;
+/// Once its builds have taken so long it stays, and its rays are all that is timed again.
+constexpr double enough_builds_ms = 150.0;
 
 /// Processor time of this thread, in ms: one thread traces, and what else runs on the machine does
 /// not count.
@@ -114,7 +118,8 @@ Questions questions_of(const ComparedSubject& subject, std::span<const Structure
         return questions.answers[i];
     };
     auto& [camera, shadow, diffuse, any] = questions.rays;
-    camera = camera_rays({subject.camera, effort.width, effort.height});
+    camera = camera_rays({subject.camera, std::max(1, effort.width / subject.coarser),
+                          std::max(1, effort.height / subject.coarser)});
     const std::vector<HitRecord>& seen = answer(RayKind::camera);
     shadow = shadow_rays(subject, camera, seen, camera.size());
     diffuse = diffuse_rays([&](std::uint64_t i) { return subject.triangles[i]; }, camera, seen,
@@ -166,15 +171,19 @@ class Candidate {
         row_.gave_up = std::move(why);
         for (TracedKind& kind : row_.traced) kind = {};
         row_.made_later.clear();
+        built_.reset();
     }
 
-    /// Builds it, traces, and frees it. Whatever is thrown is its reason to give up.
+    /// Builds it where it does not stand, and traces. Whatever is thrown is its reason to give up.
     void take_turn() {
-        if (!row_.stands() || is_slow_) return;
+        if (!wants_turn()) return;
         try {
             Stopwatch whole;
             turn();
-            is_slow_ = whole.lap().count() > slow_turn_ms;
+            turn_ms_ = whole.lap().count();
+            turns_ms_ += turn_ms_;
+            ++turns_;
+            if (builds_ms_ < enough_builds_ms || !wants_turn()) built_.reset();
         } catch (const std::bad_alloc&) {
             give_up("out of memory");
         } catch (const std::exception& error) {
@@ -197,8 +206,13 @@ class Candidate {
   private:
     const Questions& questions() const { return few_ ? *few_ : all_; }
     bool is_lazy() const { return structure_.name == "kd-lazy"; }
+    bool wants_turn() const {
+        if (!row_.stands() || turns_ >= std::max(1, effort_.most_turns)) return false;
+        return turns_ == 0 || turns_ms_ < enough_ms ||
+               (turns_ < effort_.turns && turns_ms_ + turn_ms_ < patience_ms);
+    }
 
-    void turn() {
+    void build() {
         const std::size_t references = 1'000'000 + 40 * subject_.triangles.size();
         const BuildOptions build{
             .threads = options_.threads,
@@ -207,21 +221,24 @@ class Candidate {
         // Of those that know instances the book's take them; a peer is given the triangles.
         const StructureVariant& variant = structure_.variants.front();
         Stopwatch stopwatch;
-        const BuiltStructure built = structure_.is_peer
-                                         ? variant.build_from_triangles(geometry.triangles, build)
-                                         : variant.build(geometry, build);
+        built_ = structure_.is_peer ? variant.build_from_triangles(geometry.triangles, build)
+                                    : variant.build(geometry, build);
         const double build_ms = stopwatch.lap().count();
-        if (effort_.turns > 0) {
-            build_ms_.push_back(build_ms);
-            if (is_lazy()) make_nodes(built);
-        }
-        if (!std::exchange(counted_, true))
-            count(built);
+        builds_ms_ += build_ms;
+        if (effort_.turns == 0) return;
+        build_ms_.push_back(build_ms);
+        if (is_lazy()) make_nodes(*built_);
+    }
+
+    void turn() {
+        if (!built_) build();
+        if (turns_ == 0)
+            count(*built_);
         else
-            trace(built, questions().part(0, 8));  // to warm up
+            trace(*built_, questions().part(0, 8));  // to warm up
         if (effort_.turns == 0) return;
         for (std::size_t kind = 0; kind < ray_kinds.size(); ++kind)
-            time(built, ray_kinds[kind], questions().rays[kind]);
+            time(*built_, ray_kinds[kind], questions().rays[kind]);
     }
 
     void trace(const BuiltStructure& built, const Questions& part) {
@@ -292,7 +309,9 @@ class Candidate {
     ComparedRow row_;
     std::optional<Questions> few_ = {};  ///< where all are too many
     std::vector<HitRecord> hits_;
-    bool counted_ = false, is_slow_ = false;
+    std::optional<BuiltStructure> built_ = {};  ///< from turn to turn, where its build is slow
+    int turns_ = 0;
+    double turn_ms_ = 0.0, turns_ms_ = 0.0, builds_ms_ = 0.0;  ///< the last one; all
     std::vector<double> build_ms_;
     std::array<std::vector<double>, ray_kinds.size()> trace_ns_;
     std::map<std::size_t, std::vector<double>> cold_ms_;  ///< by the rays traced until then
@@ -314,7 +333,7 @@ std::vector<ComparedRow> compare_on(const ComparedSubject& subject,
             candidates.back().give_up(
                 fmt::format("not tried beyond {} triangles", compared.most_triangles));
     }
-    for (int turn = 0; turn < std::max(1, effort.turns); ++turn)
+    for (int turn = 0; turn < std::max(1, effort.most_turns); ++turn)
         for (Candidate& candidate : candidates) {
             candidate.take_turn();
             if (progress) progress->step();

@@ -36,7 +36,7 @@ std::span<const ComparedScene> compared_scenes() {
          "soup",
          true,
          {"soup:1000", "soup:10000", "soup:100000", "soup:1000000", "soup:2000000"}},
-        {"slivers", "slivers", false, {"slivers:1000", "slivers:3000", "slivers:10000"}},
+        {"slivers", "slivers", false, {"slivers:1000", "slivers:3000", "slivers:40000"}, 4},
         {"stadium", "teapot in a stadium", false, {"stadium:2", "stadium:10", "stadium:34"}},
         {"lattice", "lattice", true, {"lattice:1", "lattice:3", "lattice:7"}},
         {"shells", "overlapping shells", false, {"shells:1", "shells:3"}},
@@ -118,13 +118,15 @@ ComparedSubject make_subject(const std::string& scene, const std::string& spec,
         subject.triangles = made.mesh.triangles();
     }
     subject.camera = made.camera;
+    subject.coarser = compared_scene(scene).coarser;
     subject.lights = made.lights;
     return subject;
 }
 
 CompareEffort compare_effort(const Options& options) {
     CompareEffort effort;
-    if (options.small || options.counts) effort.turns = 0;
+    if (options.small || options.counts) effort.turns = effort.most_turns = 0;
+    if (options.quick && !options.counts) effort.turns = effort.most_turns = 3;
     if (options.small) {
         effort.width = 8, effort.height = 6, effort.most_placed = 100'000;
         effort.blocks = {

@@ -25,6 +25,8 @@ struct ComparedScene {
     /// Whether triangles are of about one size and fill the space about evenly: judged by eye.
     bool is_even = false;
     std::vector<std::string> specs;  ///< from small to large; those of a file are one
+    /// So many times fewer pixels a row and a column, where a ray meets a good part of all.
+    int coarser = 1;
 };
 std::span<const ComparedScene> compared_scenes();
 /// @throws std::out_of_range
@@ -44,6 +46,7 @@ struct ComparedSubject {
     std::vector<Triangle> triangles = {};
     Camera camera = {};
     std::vector<PointLight> lights = {};
+    int coarser = 1;  ///< as ComparedScene's
 };
 /// @throws Error (bad_input) for a file that is not there
 ComparedSubject make_subject(const std::string& scene, const std::string& spec, std::uint64_t seed);
@@ -51,7 +54,8 @@ ComparedSubject make_subject(const std::string& scene, const std::string& spec, 
 /// How much is measured: for tests, for a look, for the book.
 struct CompareEffort {
     int width = 64, height = 48;            ///< a ray of each kind for each pixel
-    int turns = 3;                          ///< 0: counts alone
+    int turns = 7;                          ///< of what is not slow; 0: counts alone
+    int most_turns = 15;                    ///< of what is quick
     std::uint64_t most_placed = 3'000'000;  ///< by a BSP tree's builder (BuildOptions)
     /// Scene and spec, small ones first; of files those that are there.
     std::vector<std::pair<std::string, std::string>> blocks = {};

@@ -41,6 +41,11 @@ std::string sources_text(Fingerprints prints) {
     return fmt::format("{:016x}", hash);
 }
 
+std::string turns_text(const CompareEffort& effort) {
+    const std::string most = counted(std::uint64_t(effort.most_turns), "turn");
+    return effort.turns < effort.most_turns ? fmt::format("{} to {}", effort.turns, most) : most;
+}
+
 /// An empty comparison as these options would fill it.
 Comparison begun(std::span<const Structure> structures, const CompareEffort& effort,
                  const Options& options) {
@@ -55,8 +60,7 @@ Comparison begun(std::span<const Structure> structures, const CompareEffort& eff
             .settings = fmt::format(
                 "{}, {} of each kind, {}, seed {}, {}, {}", run.mode,
                 counted(std::uint64_t(effort.width) * std::uint64_t(effort.height), "ray"),
-                counted(std::uint64_t(effort.turns), "turn"), options.seed,
-                counted(options.threads, "thread"),
+                turns_text(effort), options.seed, counted(options.threads, "thread"),
                 peers.empty() ? "no peers" : fmt::format("{}", fmt::join(peers, ", ")))};
 }
 
@@ -129,7 +133,7 @@ Comparison compare_into(const std::filesystem::path& csv, std::span<const Struct
         tell(fmt::format("{} holds {} of {} already{}", csv.string(), done.size(),
                          counted(effort.blocks.size(), "block"),
                          to_do.empty() ? "; remove it to measure anew" : ""));
-    const std::size_t turns = static_cast<std::size_t>(std::max(1, effort.turns));
+    const std::size_t turns = static_cast<std::size_t>(std::max(1, effort.most_turns));
     Progress progress("comparing", to_do.size() * turns * compared_structures().size());
     for (const auto& [scene, spec] : to_do) {
         Stopwatch stopwatch;

@@ -2,19 +2,19 @@
 /// Rays at the places where tests fail: edges and vertices.
 #pragma once
 
-#include "chapters/ch10_fast_traversal/measured/traced_scene.hpp"
-#include "common/pcg32.hpp"
 #include "common/random_rays.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-namespace space::ch10 {
+namespace space {
 
 /// From all around, in turn at points of edges and at vertices, as near as floats come. Every other
-/// pair grazes a plane across an axis, by less than a float's last place: boxes have faces there.
-inline std::vector<Ray> rays_at_edges(const std::vector<Triangle>& triangles, std::size_t count,
+/// pair grazes a plane across an axis, by less than a float's last place: boxes of triangles and of
+/// nodes have faces there.
+inline std::vector<Ray> rays_at_edges(std::span<const Triangle> triangles, std::size_t count,
                                       std::uint64_t seed) {
     std::vector<Ray> rays = rays_from_around(triangles, count, seed);
     Pcg32 random(seed);
@@ -33,15 +33,4 @@ inline std::vector<Ray> rays_at_edges(const std::vector<Triangle>& triangles, st
     return rays;
 }
 
-/// Hits where there are none, none where there are hits, and hits behind what is hit: farther by
-/// more than a thousandth of the way. (So close together no two surfaces of these scenes lie, and
-/// errors of t are far smaller.)
-inline std::uint64_t wrong_hits(const Answers& got, const Answers& wanted) {
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        count += got[i].has_value() != wanted[i].has_value() ||
-                 (got[i] && got[i]->t > wanted[i]->t * (1.0f + 0x1p-10f));
-    return count;
-}
-
-}  // namespace space::ch10
+}  // namespace space
