@@ -224,7 +224,7 @@ std::vector<BuildPoint> measure_build_growth(const Options& options) {
         methods.push_back(method<WorkStealingBuilder>(ours, threads));
         methods.push_back(method<QueueBuilder>(by_queue, threads));
     }
-    std::vector<std::uint32_t> sizes{7, 13, 22, 40, 71, 126, 224, 300};
+    std::vector<std::uint32_t> sizes{7, 13, 22, 40, 71, 126, 224};
     if (options.amount() == Amount::quick) sizes.resize(4);
     std::vector<BuildPoint> points;
     Progress progress("growth of builds", sizes.size());

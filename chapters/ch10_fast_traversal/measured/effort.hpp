@@ -18,8 +18,8 @@ struct FastScene {
 
 /// By the options' amount. rounds = 0: nothing is timed.
 struct FastEffort {
-    int width = 320, height = 240, rounds = 3;
-    int mode_width = 640, mode_height = 480;  ///< packets hang on how many pixels a triangle has
+    int width = 256, height = 192, rounds = 3;
+    int mode_width = 512, mode_height = 384;  ///< packets hang on how many pixels a triangle has
     std::vector<FastScene> scenes;            ///< beside Embree
     std::vector<FastScene> ladder;            ///< a small one, a large one, one of long triangles
     std::vector<FastScene> modes;
