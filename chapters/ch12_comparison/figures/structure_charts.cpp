@@ -101,7 +101,7 @@ Chart regret_chart(const Comparison& comparison) {
         chart.series.push_back({.name = row.structure, .x = {}, .y = row.ratios});
     const double height = regret_top + regret_row * double(rows.size()) + 8;
     Svg& svg = chart.drawing.emplace(chart.title, 640, height);
-    const double width = std::min(34.0, (606 - regret_left) / double(shown.size()));
+    const double width = std::min(34.0, (618 - regret_left) / double(shown.size()));
     for (std::size_t i = 0; i < shown.size(); ++i)
         svg.text(at(regret_left + width * (double(i) + 0.72), regret_top - 8),
                  scene_text(shown[i].front().scene),
