@@ -166,6 +166,25 @@ TEST_CASE("times are there where they are asked for, the lazy tree's nodes apart
     CHECK(lazy.made_later.back().rays > double(lazy.rays()));  // the few rays before are of them
 }
 
+TEST_CASE("what takes long to build is built once for all its turns") {
+    int builds = 0;
+    std::vector<Structure> some = counted_structures(builds);
+    for (Structure& structure : some) {
+        auto& build = structure.variants.front().build_from_triangles;
+        build = [build](std::span<const Triangle> triangles, const BuildOptions& options) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(160));
+            return build(triangles, options);
+        };
+    }
+    CompareEffort effort = two_blocks();
+    effort.turns = effort.most_turns = 3;
+    const auto rows =
+        compare_on(make_subject("boxes", "boxes:12", 1), some, effort, small_options());
+    CHECK(builds == 1 + 3);  // the first one knows what is right
+    REQUIRE(rows.size() == 3);
+    for (const ComparedRow& row : rows) CHECK(row.mean_ns() > 0.0);
+}
+
 TEST_CASE("a run that is taken up measures nothing twice") {
     const Workbench bench;
     const auto csv = bench / "c.csv";
