@@ -173,19 +173,21 @@ void WalkPaper::draw_node(Svg& svg, std::size_t i, Ink ink) const {
     const DrawnTree::Node& node = tree_.nodes[i];
     const Style style{.stroke = ink, .fill = Ink::paper};
     const double shrink = tree_paper_.shrink;
+    const auto marks = std::ranges::count_if(node.name, [](char c) {
+        return std::string_view("*_{}").find(c) != std::string_view::npos;
+    });
+    const auto letters = static_cast<double>(node.name.size()) - static_cast<double>(marks);
+    double size = 24 * shrink;
     if (node.children.empty()) {
-        const auto marks = std::ranges::count_if(node.name, [](char c) {
-            return std::string_view("*_{}").find(c) != std::string_view::npos;
-        });
-        const auto letters = static_cast<double>(node.name.size()) - static_cast<double>(marks);
         const bool has_subscript = node.name.find('_') != std::string::npos;
         const double half = shrink * std::max(14.0, (has_subscript ? 7.0 : 9.0) * letters);
         svg.rect(moved(place(i), -half, -14 * shrink), at(2 * half, 28 * shrink), style);
     } else {
         svg.circle(place(i), 20 * shrink, style);
+        if (letters > 2) size = 19 * shrink;
     }
     if (!node.name.empty())
-        svg.text(moved(place(i), 0, 8 * shrink), node.name, {.ink = ink, .size = 24 * shrink});
+        svg.text(moved(place(i), 0, 8 * shrink), node.name, {.ink = ink, .size = size});
 }
 
 void WalkPaper::draw_bar(Svg& svg, std::size_t place, const WalkStep::Visit& visit, Ink ink) const {

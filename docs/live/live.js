@@ -82,6 +82,7 @@ live.play = async (box, state) => {
     const first = !answer;
     answer = next;
     const parsed = document.importNode(new DOMParser().parseFromString(answer.svg, "image/svg+xml").documentElement, true);
+    const lastStep = [...parsed.querySelectorAll("desc")].at(-1)?.textContent ?? "";
     for (const name of ["width", "height", "viewBox"]) svg.setAttribute(name, parsed.getAttribute(name));
     while (svg.firstChild !== overlay) svg.firstChild.remove();
     overlay.before(...parsed.childNodes);
@@ -99,7 +100,8 @@ live.play = async (box, state) => {
       shown.delete(name);
     }
     const speed = picture?.rays ? `, ${(picture.rays / answer.ms / 1000).toFixed(2)} million rays a second` : "";
-    said.textContent = `${answer.summary} (${answer.ms.toFixed(1)}\u00a0ms${speed})`;
+    const { summary } = answer, asTold = lastStep.endsWith(summary) ? "as-told" : "";
+    said.replaceChildren(element("span", { className: asTold, textContent: `${summary} ` }), `(${answer.ms.toFixed(1)}\u00a0ms${speed})`);
   };
   const again = () => {
     clearTimeout(resting);

@@ -258,10 +258,12 @@ void draw_nodes(Svg& svg, const Stage& stage) {
     for (std::size_t i = 0; i < stage.story.turns.size(); ++i) {
         const Steps& steps = stage.script.of_turn[i];
         const Point2 centre = stage.tree(stage.layout.nodes[i]);
+        const std::string name = written(stage.story.splitter(i));
+        const bool is_long = name.size() > std::string_view("*A*_{1}").size();
         const auto node = [&](Ink ink) {
             svg.circle(centre, 20 * shrink, {.stroke = ink, .fill = Ink::paper});
-            svg.text(moved(centre, 0, 8 * shrink), written(stage.story.splitter(i)),
-                     {.ink = ink, .size = 24 * shrink});
+            svg.text(moved(centre, 0, 8 * shrink), name,
+                     {.ink = ink, .size = (is_long ? 19 : 24) * shrink});
         };
         svg.begin_step(steps.chosen, steps.placed);
         node(Ink::green);

@@ -156,8 +156,9 @@ void draw_curve(Svg& svg, const Plot& plot, const Sweep& sweep, Ink ink, bool da
     if (!sweep.best) return;
     const Point2 best = plot(static_cast<double>(sweep.best->split.position), sweep.best->cost);
     svg.circle(best, 9, {.stroke = ink});
-    svg.text(moved(best, -14, 20), fmt::format("{:.1f}", sweep.best->cost),
-             {.anchor = Anchor::end, .ink = ink, .size = 18, .halo = true});
+    const bool fits = double{best.x} > left + 50;
+    svg.text(moved(best, fits ? -14 : 14, 20), fmt::format("{:.1f}", sweep.best->cost),
+             {.anchor = fits ? Anchor::end : Anchor::start, .ink = ink, .size = 18, .halo = true});
 }
 
 /// The plane that is asked for, with its costs, on the side where there is room.

@@ -80,9 +80,11 @@ class Story {
         const std::size_t stand = made.size();
         nodes.build_all();
         steps.push_back(
-            {.tells = fmt::format("{} rays are through. {} nodes stand and {} wait; the whole tree "
-                                  "would have {}.",
-                                  rays.size(), stand, counts.waiting, nodes.counts().standing())});
+            {.tells = fmt::format(
+                 "{} rays are through. {} and {} wait{}; the whole tree would "
+                 "have {}.",
+                 rays.size(), stand == 1 ? "1 node stands" : fmt::format("{} nodes stand", stand),
+                 counts.waiting, counts.waiting == 1 ? "s" : "", nodes.counts().standing())});
         made.resize(stand);
     }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +69,21 @@ ConvexCell in_frame(const PlacedView& view, ConvexCell corners) {
     }
     return corners;
 }
+/// The part of a line that is in the frame; none where it lies outside.
+std::optional<std::array<Double2, 2>> in_frame(const PlacedView& view, const Double2& a,
+                                               const Double2& b) {
+    double enter = 0.0, leave = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double way = b[axis] - a[axis], low = view.low[axis] - a[axis],
+                     high = low + view.size[axis];
+        if (way == 0.0 && (low > 0.0 || high < 0.0)) return {};
+        if (way == 0.0) continue;
+        enter = std::max(enter, std::min(low / way, high / way));
+        leave = std::min(leave, std::max(low / way, high / way));
+    }
+    if (enter >= leave) return {};
+    return {{enter == 0.0 ? a : a + enter * (b - a), leave == 1.0 ? b : a + leave * (b - a)}};
+}
 
 }  // namespace
 
@@ -84,10 +102,16 @@ Svg drawn_placing(const PlacedBy& by) {
         if (i > 0) draw_area(svg, view, house(), Ink::faint);
         const std::vector<Double2> axes = stage.of({{0, 0}, {1, 0}, {0, 1}});
         for (const std::size_t axis : {1u, 2u})
-            svg.line(view(axes[0]), view(axes[axis]), {.stroke = Ink::blue, .arrow = true});
-        draw_area(svg, view, stage.of(house()), Ink::sky);
-        draw_walls(svg, view, stage.of(house()), Ink::ink,
-                   stage.is_mirrored() ? Ink::vermillion : Ink::green);
+            if (const auto part = in_frame(view, axes[0], axes[axis]))
+                svg.line(view((*part)[0]), view((*part)[1]),
+                         {.stroke = Ink::blue, .arrow = (*part)[1] == axes[axis]});
+        const std::vector<Double2> corners = stage.of(house());
+        draw_area(svg, view, in_frame(view, corners), Ink::sky);
+        for (std::size_t wall = 0; wall < corners.size(); ++wall)
+            if (const auto part =
+                    in_frame(view, corners[wall], corners[(wall + 1) % corners.size()]))
+                draw_wall(svg, view, (*part)[0], (*part)[1], Ink::ink,
+                          stage.is_mirrored() ? Ink::vermillion : Ink::green);
         svg.end_group();
     }
     return svg;

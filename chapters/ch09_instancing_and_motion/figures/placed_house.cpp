@@ -38,15 +38,16 @@ std::vector<Double2> placed(const ObjectPlacement& placement, const std::vector<
     return result;
 }
 
+void draw_wall(Svg& svg, const PlacedView& view, const Double2& from, const Double2& to, Ink ink,
+               Ink tick) {
+    draw_front_tick(svg, view.plane(), from - view.low, to - view.low, tick);
+    draw_segment(svg, view.plane(), from - view.low, to - view.low, {.stroke = {}, .fill = ink});
+}
+
 void draw_walls(Svg& svg, const PlacedView& view, const std::vector<Double2>& corners, Ink ink,
                 Ink ticks) {
-    const PlaneView plane = view.plane();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Double2 from = corners[i] - view.low,
-                      to = corners[(i + 1) % corners.size()] - view.low;
-        draw_front_tick(svg, plane, from, to, ticks);
-        draw_segment(svg, plane, from, to, {.stroke = {}, .fill = ink});
-    }
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        draw_wall(svg, view, corners[i], corners[(i + 1) % corners.size()], ink, ticks);
 }
 
 void draw_area(Svg& svg, const PlacedView& view, const std::vector<Double2>& corners, Ink ink,

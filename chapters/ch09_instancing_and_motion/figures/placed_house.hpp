@@ -33,7 +33,10 @@ std::vector<Double2> house();
 Aabb house_box();
 std::vector<Double2> placed(const ObjectPlacement& placement, const std::vector<Double2>& points);
 
-/// Walls with ticks on their front sides, as their winding has them.
+/// A wall with a tick on its front side.
+void draw_wall(Svg& svg, const PlacedView& view, const Double2& from, const Double2& to, Ink ink,
+               Ink tick);
+/// All walls of a house, as their winding has them.
 void draw_walls(Svg& svg, const PlacedView& view, const std::vector<Double2>& corners, Ink ink,
                 Ink ticks);
 /// Filled softly.

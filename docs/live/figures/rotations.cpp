@@ -10,16 +10,18 @@
 namespace space::live {
 namespace {
 
-/// Handles at the middles of segments that go their ways, in a square.
+/// Handles at the middles of segments that go their ways, in a square; at its foot `room` is free.
 class Ways {
   public:
     Ways(const State& state, std::span<const Segment> rest, std::span<const Double2> first,
-         const PlaneView& view, std::string_view what) {
+         const PlaneView& view, std::string_view what, double room = 0.0) {
         for (std::size_t i = 0; i < rest.size(); ++i) {
             const Double2 middle = 0.5 * (Double2(rest[i].a) + Double2(rest[i].b));
             const std::string name(1, static_cast<char>('A' + i));
             const Double2 way = state.point(name, first[i], -view.size, view.size);
-            ways.push_back(glm::clamp(way, -middle, Double2(view.size) - middle));
+            const Double2 a(rest[i].a), b(rest[i].b);
+            ways.push_back(glm::clamp(way, Double2(0.0, room) - glm::min(a, b),
+                                      Double2(view.size) - glm::max(a, b)));
             handles.push_back({name,
                                fmt::format("{} {}", what, name),
                                ways.back(),
@@ -39,7 +41,8 @@ std::string counted(std::size_t count, std::string_view what) {
 
 Answer rotations(const State& state) {
     const std::vector<Segment> rest = heinonen_segments();
-    Ways ways(state, rest, ch09::first_drift, ch09::rotations_view, "segment");
+    // Boxes that share a side are drawn apart: the root's is the largest.
+    Ways ways(state, rest, ch09::first_drift, ch09::rotations_view, "segment", 0.75);
     const std::vector<Segment> moved = ch09::drifted(rest, ways.ways);
     const auto trees = ch09::followed_trees(rest, moved, {});
     return {.drawing = ch09::drawn_rotations(rest, moved),
