@@ -53,6 +53,35 @@ TEST_CASE("names beside points keep out of each other's way, and inside of the f
     }
 }
 
+TEST_CASE("a line to a name that stands farther off crosses no other name and no other symbol") {
+    constexpr double size = 16;
+    Labels labels({at(0, 0), at(400, 400)});
+    std::vector<Point2> points;
+    for (int i = 0; i < 7; ++i) points.push_back(at(180 + 18 * i, 200));  // in a row
+    for (const Point2& point : points) labels.keep_free(point, 7);
+    std::vector<Aabb2> names;
+    std::vector<PlacedName> placed;
+    for (const Point2& point : points) {
+        placed.push_back(labels.place(point, "a-name", size));
+        const Double2 start(placed.back().start);
+        names.push_back({at(start.x, start.y - 0.8 * size),
+                         at(start.x + text_width("a-name", size), start.y + 0.2 * size)});
+    }
+    std::size_t lines = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!placed[i].line) continue;
+        ++lines;
+        for (int k = 0; k <= 100; ++k) {
+            const Point2 on_line = glm::mix(points[i], *placed[i].line, 0.01f * float(k));
+            for (std::size_t j = 0; j < points.size(); ++j) {
+                CHECK((j == i || !names[j].contains(on_line)));
+                CHECK((j == i || glm::length(on_line - points[j]) > 7.0f));
+            }
+        }
+    }
+    CHECK(lines > 0);
+}
+
 TEST_CASE("a panel places the ends of its axes at its corners, decades at equal steps") {
     const Panel panel{10, 20, 300, 100, log_axis(1, 1000), {.low = 0, .high = 4}};
     CHECK(panel.place(panel.x.low, 0) == at(10, 120));
