@@ -71,6 +71,7 @@ class Stage {
 
     void draw_cells(Svg& svg) const;
     void draw_points(Svg& svg) const;
+    Point2 name_place(std::uint32_t i) const;
     void draw_tree(Svg& svg) const;
     void draw_node(Svg& svg, std::size_t node, Ink ink) const;
     void draw_order(Svg& svg) const;
@@ -191,8 +192,23 @@ void Stage::draw_points(Svg& svg) const {
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
         const Point2 p = view_(Double2(points_[i]));
         svg.circle(p, 5, {.stroke = Ink::paper, .fill = Ink::ink});
-        svg.text(moved(p, 13, -5), "*" + name_of(i) + "*", {.size = 20, .halo = true});
+        svg.text(name_place(i), "*" + name_of(i) + "*", {.size = 20, .halo = true});
     }
+}
+
+/// Beside its point, where no other one is in the way, if there is such a side.
+Point2 Stage::name_place(std::uint32_t i) const {
+    const Point2 p = view_(Double2(points_[i]));
+    for (const Double2& side :
+         {Double2(13, -5), Double2(-13, -5), Double2(13, 19), Double2(-13, 19)}) {
+        const Point2 place = moved(p, side.x, side.y), middle = moved(place, 0, -6);
+        if (!std::ranges::any_of(points_, [&](const Point2& point) {
+                const Point2 other = view_(Double2(point));
+                return other != p && glm::length(other - middle) < 14.0f;
+            }))
+            return place;
+    }
+    return moved(p, 13, -5);
 }
 
 void Stage::draw_node(Svg& svg, std::size_t i, Ink ink) const {
