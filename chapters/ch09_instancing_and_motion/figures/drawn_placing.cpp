@@ -91,7 +91,7 @@ Svg drawn_placing(const PlacedBy& by) {
     Svg svg(
         "A house that is scaled, then turned, then moved; the same in another order; and in a "
         "mirror",
-        656, 420);
+        656, 424);
     const PlacedView& view = placing_view;
     view.draw_frame(svg);
     draw_axes(svg, view, {}, Ink::quiet);

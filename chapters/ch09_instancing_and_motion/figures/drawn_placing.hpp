@@ -20,7 +20,7 @@ struct PlacedBy {
 
 inline constexpr PlacedBy placed_first{{4.25, 2}, 0.8, 0.6, {1.5, 0.75}};
 inline constexpr PlacedView placing_view{
-    .corner = {8, 8}, .scale = 80, .low = {-1.75, -1.6}, .size = {8, 5}};
+    .corner = {8, 8}, .scale = 80, .low = {-1.75, -1.6}, .size = {8, 5.1}};
 /// S, R and T, one after another; then R before S, then a mirror.
 Svg drawn_placing(const PlacedBy& by);
 
