@@ -126,17 +126,17 @@ function renewSteps(drawing, at = 0) {
   list.className = "steps";
   for (const { textContent } of told) list.append(Object.assign(document.createElement("li"), { textContent }));
   drawing.after(list);
-  stepThrough(list, at);
+  stepThrough(list, at, false);
 }
 
 // The steps that have the focus listen; if none have, those nearest to the window's middle do, but leave Home and End to
-// the page.
+// the page. Sliders and lists of a live figure have moves of their own.
 document.addEventListener("keydown", (event) => {
   if (event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
   const lists = stepLists(), active = document.activeElement;
   const focused = lists.find((list) => list.parentElement.contains(active)), list = focused ?? (lists.length ? inTheMiddle(lists) : null);
-  if (!list || !(event.key in list.moves())) return;
-  if (!focused && (event.key.length < 5 || active.matches("input, select, textarea, .scroll, .fragment"))) return;
+  if (!list || !(event.key in list.moves()) || active.matches("input, select, textarea")) return;
+  if (!focused && (event.key.length < 5 || active.matches(".scroll, .fragment"))) return;
   list.show(list.moves()[event.key]);
   event.preventDefault();
 });

@@ -32,7 +32,7 @@ const full = () => (document.fullscreenElement ? document.exitFullscreen() : pag
 const turnDark = () => setDark(!isDark());
 
 function showAddress() {
-  const [id, at] = decodeURIComponent(location.hash.slice(1)).split("/");
+  const [id, at] = location.hash.slice(1).split(/\/|%2F/i);
   show(all.findIndex((slide) => slide.id === id), (Number.parseInt(at) || 1) - 1);
 }
 

@@ -13,8 +13,9 @@ function whenPrinting(begin, end) {
   window.matchMedia("print").addEventListener("change", (event) => change(event.matches));
 }
 
-// A drawing with steps (Svg::begin_step): its list of steps shows one at a time, with the groups of that step.
-function stepThrough(list, at = 0) {
+// A drawing with steps (Svg::begin_step): its list of steps shows one at a time, with the groups of that step. Steps are
+// told to those who don't see them; those of a drawing that is made again and again (`tells` false), from its reader's first on.
+function stepThrough(list, at = 0, tells = true) {
   const drawing = list.previousElementSibling, items = [...list.children], last = items.length - 1;
   const groups = [...drawing.querySelectorAll("[data-first]")];
   const bar = document.createElement("div"), count = document.createElement("output");
@@ -46,9 +47,14 @@ function stepThrough(list, at = 0) {
                    button("Next ▶", "Next step", () => now + 1, last), button("▶|", "Last step", () => last, last)];
   bar.append(buttons[0][0], buttons[1][0], count, buttons[2][0], buttons[3][0]);
   list.before(bar);
-  list.setAttribute("aria-live", "polite");
+  const tell = (politely) => [list, count].forEach((part) => part.setAttribute("aria-live", politely ? "polite" : "off"));
+  tell(tells);
+  bar.addEventListener("focusin", () => tell(true));
   list.classList.add("one-at-a-time");
-  list.show = show;
+  list.show = (step) => {
+    tell(true);
+    show(step);
+  };
   list.moves = () => ({ ArrowLeft: now - 1, ArrowRight: now + 1, Home: 0, End: last });
   list.step = () => now;
   show(at);

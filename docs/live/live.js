@@ -1,7 +1,10 @@
 // Live figures: the book's own C++, compiled to WebAssembly, draws a figure again whenever its reader moves something.
 // Without scripts or without the module the drawing stays as the book has it. Nothing is fetched: the module is a script
 // that holds its bytes in base64, so that a page works from a folder, too.
-const live = { rest: 400 };  // ms without a change until the address follows and the new state is told
+const live = {
+  rest: 400,  // ms without a change until the address follows and the new state is told
+  held: new WeakMap(),  // what a pointer drags: which one, and its end
+};
 
 // What the module's functions do, with texts: one for all figures of a page, made when the first is played.
 live.start = async () => {
@@ -61,12 +64,12 @@ live.play = async (box, state) => {
   const said = element("p", { className: "live-said" });  // below: its lines don't move what is dragged
   // Over the drawing, whose parts are drawn anew: points to drag, and pixels.
   const overlay = drawn("g", { class: "live-overlay" }, svg), shown = new Map();
-  let answer = null, held = false, waits = false, resting = 0;
+  let answer = null, fault = "", held = false, waits = false, resting = 0;
 
   const address = () => [id, ...[...state].map(([name, value]) => `${name}=${value}`)].join(";");
   const rest = () => {
+    told.textContent = fault || (answer?.summary ?? "");
     history.replaceState(null, "", `#${encodeURI(address())}`);
-    told.textContent = answer?.summary ?? "";
     if (answer?.picture && !held) draw();  // in full
   };
   // Of each kind of part, those that this answer names: made where they are new, gone where they are named no more.
@@ -78,7 +81,8 @@ live.play = async (box, state) => {
   });
   const draw = async (quick = false) => {
     const next = await live.ask(address() + (quick ? ";detail=low" : ""));
-    if (next.error) return void (said.textContent = `This can't be drawn (${next.error}).`);
+    fault = next.error ? `This can't be drawn (${next.error}).` : "";
+    if (fault) return void (said.textContent = fault);
     const first = !answer;
     answer = next;
     const parsed = document.importNode(new DOMParser().parseFromString(answer.svg, "image/svg+xml").documentElement, true);
@@ -96,8 +100,11 @@ live.play = async (box, state) => {
       ...renew(points ? [{ name: " paper", points }] : [], paper),
       ...renew([...handles, ...byHand], dot), ...renew(choices, choice), ...renew(sliders, slider)]);
     for (const [name, control] of shown) if (!named.has(name)) {
+      const hadFocus = control.parts.some((part) => part.contains(document.activeElement));
       control.parts.forEach((part) => part.remove());
       shown.delete(name);
+      const next = overlay.lastElementChild?.closest(".live-dot") ?? bar.querySelector("select, input, button");
+      if (hadFocus) next.focus({ preventScroll: true });
     }
     const speed = picture?.rays ? `, ${(picture.rays / answer.ms / 1000).toFixed(2)} million rays a second` : "";
     const { summary } = answer, asTold = lastStep.endsWith(summary) ? "as-told" : "";
@@ -144,15 +151,15 @@ live.play = async (box, state) => {
       control.at = [zero[0] + unit[0] * x, zero[1] + unit[1] * y];
       for (const circle of circles) ["cx", "cy"].forEach((name, i) => circle.setAttribute(name, control.at[i]));
       group.setAttribute("aria-label", part.label);
+      const ends = [0, svg.viewBox.baseVal.width].map((end) => (end - zero[0]) / unit[0]).sort((a, b) => a - b);
+      ["min", "max"].forEach((end, i) => group.setAttribute(`aria-value${end}`, ends[i].toFixed(decimals(part))));
       group.setAttribute("aria-valuenow", x);
       group.setAttribute("aria-valuetext", rounded(part, part.value).replace(",", ", "));
     } };
     group.control = control;
     group.addEventListener("keydown", (event) => {
-      const { part } = control, by = (event.shiftKey ? 10 : 1) * 10 ** (1 - decimals(part));
-      const way = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (way && !event.altKey && !event.ctrlKey && !event.metaKey)
-        moved(control, part.value.map((v, i) => v + by * way[i] * (i ? -Math.sign(part.unit[1]) : Math.sign(part.unit[0]))));
+      const { part } = control, by = 10 ** (1 - decimals(part)), way = live.way(event);
+      if (way) moved(control, part.value.map((v, i) => v + by * way[i] * (i ? -Math.sign(part.unit[1]) : Math.sign(part.unit[0]))));
       else if (/^(Delete|Backspace)$/.test(event.key) && part.of) list(part.of, part.of.values.filter((_, i) => i !== part.i));
       else return;
       event.preventDefault();
@@ -207,19 +214,30 @@ live.play = async (box, state) => {
       [canvas.width, canvas.height] = [picture.width, picture.height];
       canvas.getContext("2d").putImageData(new ImageData(picture.rgba, picture.width, picture.height), 0, 0);
     } };
+    const turn = ({ name, least, most }, i, to) => {
+      const span = most - least, round = least + (((to - least) % span) + span) % span;
+      change(name, String(Number((i ? Math.min(most, Math.max(least, to)) : round).toFixed(2))));
+    };
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", "The picture: arrow keys turn it");
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button) return;
       const { width, height } = canvas.getBoundingClientRect(), sliders = answer.sliders.slice(0, 2);
       live.hold(event, canvas, (now) => {
         const by = [(now.clientX - event.clientX) / width, (now.clientY - event.clientY) / height];
-        sliders.forEach(({ name, value, least, most }, i) => {
-          const next = value + by[i] * (most - least), span = most - least;
-          change(name, String(i ? Math.min(most, Math.max(least, next)) : least + (((next - least) % span) + span) % span));
-        });
+        sliders.forEach((slider, i) => turn(slider, i, slider.value + by[i] * (slider.most - slider.least)));
       }, (down) => {
         held = down;
         if (!down) again();
       });
+    });
+    canvas.addEventListener("keydown", (event) => {
+      const way = live.way(event);
+      if (!way) return;
+      answer.sliders.slice(0, 2).forEach((slider, i) => way[i] && turn(slider, i, slider.value + way[i] * (i ? -slider.step : slider.step)));
+      event.preventDefault();
+      event.stopPropagation();
     });
     return control;
   };
@@ -238,6 +256,7 @@ live.play = async (box, state) => {
   const slider = (first) => labelled(first, (label) => {
     const input = element("input", { type: "range", oninput: () => change(first.name, input.value) }, label);
     const number = element("span", {}, label);
+    number.setAttribute("aria-hidden", true);  // it is the slider's value, and no part of its name
     return { renew: ({ value, least, most, step }) => {
       Object.assign(input, { min: least, max: most, step });
       input.value = value;
@@ -250,10 +269,14 @@ live.play = async (box, state) => {
     again();
   } }, buttons);
   element("button", { type: "button", textContent: "Save as SVG", onclick: () => {
+    if (!answer) return;
     const { picture } = answer, image = picture && drawn("image", {
       x: picture.corner[0], y: picture.corner[1], width: picture.size[0], height: picture.size[1],
       href: shown.get(" pixels").canvas.toDataURL() });
-    const whole = image ? answer.svg.replace(/<\/svg>\s*$/, `${new XMLSerializer().serializeToString(image)}</svg>\n`) : answer.svg;
+    // At the step that is shown.
+    const groups = [...svg.querySelectorAll("[data-first]")], step = answer.svg.replace(/(<g data-first="[^>]*?)( display="none")?>/g,
+      (_, group) => `${group}${groups.shift().hasAttribute("display") ? ' display="none"' : ""}>`);
+    const whole = image ? step.replace(/<\/svg>\s*$/, `${new XMLSerializer().serializeToString(image)}</svg>\n`) : step;
     const href = URL.createObjectURL(new Blob([whole], { type: "image/svg+xml" }));
     element("a", { href, download: `${id}.svg` }).click();
     setTimeout(() => URL.revokeObjectURL(href), 1000);
@@ -270,17 +293,30 @@ live.play = async (box, state) => {
   await draw();
 };
 
-// While a pointer is down: `move` for each of its moves, `hold` with whether it is down.
+// Which way an arrow key goes, to the right and upwards, ten times as far with Shift; nothing for another key.
+live.way = ({ key, shiftKey, altKey, ctrlKey, metaKey }) => {
+  const far = shiftKey ? 10 : 1, way = { ArrowRight: [far, 0], ArrowLeft: [-far, 0], ArrowUp: [0, far], ArrowDown: [0, -far] }[key];
+  return altKey || ctrlKey || metaKey ? null : way;
+};
+
+// While a pointer is down: `move` for each of its moves, `hold` with whether it is down. A second finger on what one holds
+// moves nothing.
 live.hold = (event, target, move, hold) => {
   event.preventDefault();  // no text is selected
-  target.focus?.();
+  const before = live.held.get(target);
+  if (before && before.pointerId !== event.pointerId && target.hasPointerCapture(before.pointerId)) return;
+  before?.end();  // which the browser did not tell
+  target.focus({ preventScroll: true });
   target.setPointerCapture(event.pointerId);
   hold(true);
   const end = () => {
     for (const [name, listener] of Object.entries(listeners)) target.removeEventListener(name, listener);
+    live.held.delete(target);
     hold(false);
   };
-  const listeners = { pointermove: move, pointerup: end, pointercancel: end };
+  const own = (act) => (now) => now.pointerId === event.pointerId && act(now);
+  const listeners = { pointermove: own(move), pointerup: own(end), pointercancel: own(end) };
+  live.held.set(target, { pointerId: event.pointerId, end });
   for (const [name, listener] of Object.entries(listeners)) target.addEventListener(name, listener);
 };
 
@@ -300,7 +336,7 @@ live.follow = async () => {
   for (const own of ["wheel", "touchstart", "pointerdown", "keydown"])
     window.addEventListener(own, () => (gone = true), { once: true, passive: true, capture: true });
   const show = () => gone || box.scrollIntoView({ block: "center" });
-  const played = box.renew ? box.renew(state) : box.play(state);
+  const played = box.playing ? box.playing.then(() => box.renew?.(state)) : box.play(state);
   show();
   await Promise.all([played, formulasShown]);  // the bar and the formulas above move it, but for a reader who has gone on
   show();
@@ -309,7 +345,9 @@ live.follow = async () => {
 document.addEventListener("DOMContentLoaded", () => {
   for (const box of document.querySelectorAll("[data-live]")) {
     const button = live.element("button", { type: "button", className: "live-play", textContent: "Move it yourself" });
-    box.play = async (state) => {
+    button.setAttribute("aria-describedby", `${box.dataset.live}-title`);
+    box.play = (state) => (box.playing ??= play(state));  // once
+    const play = async (state) => {
       button.disabled = true;
       try {
         await live.play(box, state);

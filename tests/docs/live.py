@@ -75,12 +75,23 @@ helpers = """
         }
         return parts.join(";");
     };
-    // COUNT random states: those that end the module, and the times of the others.
+    // Points in one place, or as near to each other as floats can be, and what is no number; choices and sliders at their ends.
+    window.hard_states = ({ handles, points, choices, sliders }) => {
+        const places = [["0,0", "0,0"], ["0,0", "1e-40,0"], ["8,8", "8,8.000001"], ["1e999,<b>", "1,2;3=&quot;"]];
+        return places.flatMap((pair) => [0, -1].map((end) => [
+            ...handles.map(({ name }, i) => `${name}=${pair[i % 2]}`),
+            ...(points ? [`${points.name}=${Array.from({ length: points.limit }, (_, i) => pair[i % 2]).join(" ")}`] : []),
+            ...choices.map(({ name, names }) => `${name}=${names.at(end)}`),
+            ...sliders.map(({ name, least, most }) => `${name}=${end ? most : least}`)].join(";")));
+    };
+    // These and COUNT random states: those that end the module, and the times of the others.
     window.fuzz = async (id, count, seed) => {
         const random = generator(seed), times = [], faults = [];
         let answer = await live.ask(id);
-        for (let k = 0; k < count; ++k) {
-            const request = `${id};${some_state(answer, random)}${random() < 0.3 ? ";detail=low" : ""}`, next = await live.ask(request);
+        const hard = hard_states(answer);
+        for (let k = -hard.length; k < count; ++k) {
+            const state = k < 0 ? hard.at(k) : some_state(answer, random) + (random() < 0.3 ? ";detail=low" : "");
+            const request = `${id};${state}`, next = await live.ask(request);
             if (next.error) faults.push(`${request}: ${next.error}`);
             else times.push(next.ms), answer = next;
             if (!next.error && (!next.summary || /NaN|inf/.test(next.svg))) faults.push(`${request}: no summary, or no number`);
@@ -255,6 +266,21 @@ def play(name):
         "[...bar().querySelectorAll('button')].find((b) => b.textContent === 'As in the book').click()"))
 
 
+def move_by_keys(name):
+    """Left and right move a slider, and not the steps of its drawing."""
+    if not chromium.run("const slider = bar().querySelector('input'); slider?.focus(); return slider !== null"):
+        return
+    seen = []
+    for key in (Keys.ARROW_LEFT, Keys.ARROW_RIGHT):
+        chromium.driver.switch_to.active_element.send_keys(key)
+        chromium.run("return settled()")
+        seen.append(chromium.run("return bar().querySelector('input').value"))
+    if seen[0] == seen[1]:
+        fault(name, "keys do not move its slider")
+    if chromium.run("const list = box.parentElement.querySelector('ol.steps'); return list && list.step() + 1 < list.children.length"):
+        fault(name, "keys that move its slider move its steps, too")
+
+
 def touch_it(name):
     """On a phone, in the dark: a finger moves a point and not the page, and nothing sticks out."""
     open_figure(name, 390, "dark", "")
@@ -298,6 +324,7 @@ for name in where:
             fault(name, what)
         slowest = max(slowest, found["worst"])
         print(f"{name}: {found['median']:.1f} ms, at worst {found['worst']:.1f} ms")
+        move_by_keys(name)
         parts = set(chromium.run(kinds))
         if parts - played or os.environ.get("LIVE") == "all":
             play(name)

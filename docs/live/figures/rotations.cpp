@@ -69,6 +69,9 @@ Answer refits(const State& state) {
     const Point2 from = handle("ray", "start of the ray", ch09::refits_from),
                  through = handle("to", "a point on the ray", ch09::refits_through);
     Ray2 ray{.origin = from, .direction = through - from};
+    // Of a part whose reciprocal is no normal float the box test can't tell where the square ends.
+    for (int axis = 0; axis < 2; ++axis)
+        if (!std::isnormal(1.0f / ray.direction[axis])) ray.direction[axis] = 0.0f;
     if (ray.direction == Vector2(0.0f)) ray.direction = {1.0f, 0.0f};
     const auto trees = ch09::followed_trees(rest, moved, ray);
     const auto cost = [&](std::size_t i) {
