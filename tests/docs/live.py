@@ -129,7 +129,7 @@ def open_figure(name, width, mode, state=None):
     chromium.run(helpers.replace("ID", name))
     if state is not None and not chromium.wait("box.classList.contains('played')"):
         fault(name, "is not played by its address")
-    if not chromium.wait("document.documentElement.classList.contains('formulas-shown')"):
+    if not chromium.wait("document.documentElement.classList.contains('formulas-shown')", 60):
         fault(name, "formulas were never shown")  # until then the page moves
     if state is not None and not chromium.wait(in_the_middle, 3):
         fault(name, "a link to it leads to another place of its page")
