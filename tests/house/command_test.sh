@@ -128,8 +128,8 @@ if [[ ${2:-} == check && -n $stub ]]; then
     ends 1 'is not solved yet' exercise check 1.1
     ALSO=abort ends 1 'crashes \(exit code 134\): it was aborted' exercise check 1.1
     ! grep -q 'exercises\.sh' "$tree/said.txt" || wrong "the shell speaks too: $(<"$tree/said.txt")"
-    ALSO=write ends 1 'crashes \(exit code 139\): it used memory that is not its own' exercise check 1.1
-    ALSO=exit ends 1 'before the checks are done' exercise check 1.1
+    ALSO='write' ends 1 'crashes \(exit code 139\): it used memory that is not its own' exercise check 1.1
+    ALSO='exit' ends 1 'before the checks are done' exercise check 1.1
     ALSO=grow ends 1 'more than 2 GB' exercise check 1.1
     ALSO=print ends 1 'more than 10 MB' exercise check 1.1
     (($(wc -l <"$tree/said.txt") <= 70)) || wrong "what an answer prints is long: $(wc -l <"$tree/said.txt") lines"
