@@ -3,65 +3,52 @@
 broken links and pictures, formulas left raw, figures that do not follow the page's colours, a search that finds nothing,
 errors in the console, requests to a network, text wider than a phone. Prints a line per fault; exit code 77: no browser.
 
-Run: browse.py SITE"""
+Run: browse.py SITE
+Every page is opened, in two widths and both modes. What is dear and alike on all of them (paper, listings at other widths,
+a drawing's steps in a wide window and without scripts) is looked at on some; BROWSE=all: on each."""
 
 import html
-import html.parser
-import json
+import os
 import pathlib
 import re
-import shutil
 import sys
-import tempfile
 import urllib.parse
 
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import WebDriverWait
-except ImportError:
-    print("skipped: python3-selenium is not installed")
-    sys.exit(77)
-browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-driver = shutil.which("chromedriver")
-if not browser or not driver:
-    print("skipped: chromium or chromium-driver is not installed")
-    sys.exit(77)
+from chromium import Chromium, fault, finish
+
+chromium = Chromium()
+from selenium.webdriver.common.by import By  # noqa: E402  which is there now
+from selenium.webdriver.common.keys import Keys  # noqa: E402
 
 site = pathlib.Path(sys.argv[1]).resolve()
-faults = []
+everything = os.environ.get("BROWSE") == "all"
+script = re.compile(r"(<script\b[^>]*>).*?(?=</script>)|<!--.*?-->", re.DOTALL)
+tag = re.compile(r"<([a-zA-Z][\w-]*)(\s[^>]*)>")
+attribute = re.compile(r"""\s(id|name|href|src|data|xmlns)=(?:"([^"]*)"|'([^']*)')""")
 
 
-def fault(page, what):
-    faults.append(f"{page}: {what}")
-
-
-class Page(html.parser.HTMLParser):
-    """The ids of a page, and what it links to and loads."""
+class Page:
+    """The ids of a page, and what it links to and loads. Sixty megabytes take html.parser a quarter of a minute."""
 
     def __init__(self, text):
-        super().__init__()
-        self.ids, self.twice, self.links, self.parts = set(), set(), [], []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        attributes = dict(attributes)
-        name = attributes.get("id")
-        if name is not None:
-            (self.twice if name in self.ids else self.ids).add(name)
-        if tag == "a":
-            self.ids.add(attributes.get("name"))
-            if "href" in attributes:
-                self.links.append(attributes["href"])
-        elif "src" in attributes or (tag in ("link", "object") and "xmlns" not in attributes):
-            self.parts.append(attributes.get("src") or attributes.get("href") or attributes.get("data") or "")
+        self.ids, self.twice, self.links, self.parts = set(), set(), set(), set()
+        for kind, rest in tag.findall(script.sub(r"\1", text)):
+            attributes = {name: html.unescape(one or other) for name, one, other in attribute.findall(rest)}
+            name = attributes.get("id")
+            if name is not None:
+                (self.twice if name in self.ids else self.ids).add(name)
+            if kind == "a":
+                self.ids.add(attributes.get("name"))
+                if "href" in attributes:
+                    self.links.add(attributes["href"])
+            elif "src" in attributes or (kind in ("link", "object") and "xmlns" not in attributes):
+                self.parts.add(attributes.get("src") or attributes.get("href") or attributes.get("data") or "")
 
 
 # Pages of the code are Doxygen's; their links are checked too, but they are not opened one by one.
 code = re.compile(r"(class|struct|concept|namespace|union|functions|dir_|globals|annotated|files|hierarchy|concepts).*|.*_8.*")
-pages = {file.name: Page(file.read_text()) for file in sorted(site.glob("*.html"))}
+files = {file.relative_to(site).as_posix() for file in site.rglob("*")}
+pages = {name: Page((site / name).read_text()) for name in sorted(files) if re.fullmatch(r"[^/]*\.html", name)}
 book = [name for name in pages if not code.fullmatch(name.removesuffix(".html"))]
 for needed in ("index.html", "exercises.html", "figures.html", "ledger.html"):
     if needed not in book:
@@ -74,78 +61,31 @@ for name, page in pages.items():
             continue
         file = urllib.parse.unquote(target.path) or name
         anchor = urllib.parse.unquote(target.fragment)
-        if not (site / file).is_file():
+        if file not in files:
             fault(name, f"links to {link}, which is not there")
         elif anchor and file in pages and anchor not in pages[file].ids:
             fault(name, f"links to {link}: no such anchor")
     for part in page.parts:
-        if urllib.parse.urlsplit(part).scheme not in ("", "data") or not (part.startswith("data:") or (site / part).is_file()):
+        if urllib.parse.urlsplit(part).scheme not in ("", "data") or not (part.startswith("data:") or part in files):
             fault(name, f"needs {part}, which is not in the site")
     for twice in page.twice & page.ids if name in book else ():
         fault(name, f"has two elements with the id {twice}")
 
-options = webdriver.ChromeOptions()
-options.binary_location = browser
-profile = tempfile.TemporaryDirectory()
-for argument in (
-    "--headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-background-networking "
-    f"--disable-component-update --disable-sync --no-first-run --user-data-dir={profile.name}"
-).split():
-    options.add_argument(argument)
-options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-chromium = webdriver.Chrome(service=Service(driver), options=options)
-chromium.set_page_load_timeout(60)
+run, look_at_logs = chromium.run, chromium.look_at_logs
 
 
-def run(script):
-    return chromium.execute_script(script)
-
-
-def wait(script, seconds=60):  # where nothing is wrong it takes a moment, on a machine with other work some seconds
-    try:
-        WebDriverWait(chromium, seconds, poll_frequency=0.05).until(lambda _: run("return " + script))
-        return True
-    except Exception:
-        return False
-
-
-standing = {}
+def wait(expression):  # where nothing is wrong it takes a moment, on a machine with other work some seconds
+    return chromium.wait(expression, 60)
 
 
 def window(width, mode="light", media=""):
-    """Only what changes is told: a page of a megabyte is laid out anew for each of the two."""
-    height = 844 if width < 500 else 900
-    if standing.get("width") != width:
-        chromium.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                 dict(width=width, height=height, deviceScaleFactor=1, mobile=width < 500))
-    if standing.get("media") != (mode, media):
-        chromium.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                                 dict(media=media, features=[dict(name="prefers-color-scheme", value=mode)]))
-    standing.update(width=width, media=(mode, media))
-
-
-def leave_page():
-    """So that the one that stood is not laid out once more for the next one's window."""
-    chromium.get("about:blank")
-    standing.clear()
+    chromium.window(width, 844 if width < 500 else 900, mode, media)
 
 
 def open_page(name):
-    chromium.get((site / name).as_uri())
+    chromium.open(site / name)
     if not wait("document.documentElement.classList.contains('formulas-shown')"):
         fault(name, "formulas were never shown")
-
-
-def look_at_logs(name):
-    for entry in chromium.get_log("browser"):
-        if entry["level"] in ("SEVERE", "WARNING"):
-            fault(name, "console: " + entry["message"])
-    for entry in chromium.get_log("performance"):
-        message = json.loads(entry["message"])["message"]
-        if message["method"] == "Network.requestWillBeSent":
-            url = message["params"]["request"]["url"]
-            if urllib.parse.urlsplit(url).scheme not in ("file", "data", "blob", "about", "chrome", "chrome-untrusted"):
-                fault(name, f"asks the network for {url}")
 
 
 # What of ELEMENTS sticks out of the window and cannot be scrolled to in a box of its own.
@@ -319,10 +259,10 @@ def walk_steps(name, width, number, groups, tells):
         fault(name, f"at {width} px the page below jumps from step to step: {sorted(places)}")
     # By hand: the button Next, then keys.
     script(to_the_middle)
-    buttons = chromium.find_elements(By.CSS_SELECTOR, ".step-bar")[number].find_elements(By.TAG_NAME, "button")
+    buttons = chromium.driver.find_elements(By.CSS_SELECTOR, ".step-bar")[number].find_elements(By.TAG_NAME, "button")
     buttons[2].click()
     run("document.activeElement.blur()")
-    body = chromium.find_element(By.TAG_NAME, "body")
+    body = chromium.driver.find_element(By.TAG_NAME, "body")
     for key, step in ((None, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
         if key:
             body.send_keys(key)
@@ -334,24 +274,27 @@ def walk_steps(name, width, number, groups, tells):
     buttons[0].click()
 
 
-for name in book + samples:
-    leave_page()
-    window(390, "dark")
-    open_page(name)
-    look_at_page(name, 390, "dark")
+# A phone in the dark and a wide window by day: the page that stands follows, as it does on a desk. Every other page is
+# opened in the window of the one before, and so the other way round.
+views = [(390, "dark"), (1280, "light")]
+for place, name in enumerate(book + samples):
     stepped = list(drawings_with_steps(name))
-    for number, drawing in enumerate(stepped):
-        walk_steps(name, 390, number, *drawing)
-    if name in book and name.startswith("ch"):
-        look_at_paper(name)
-    window(1280, "light")  # the page that stands follows, as it does on a desk
-    if not wait("document.documentElement.classList.contains('light-mode')"):
-        fault(name, "does not follow a system that turns light")
-    look_at_page(name, 1280, "light")
-    for number, drawing in enumerate(stepped):
-        walk_steps(name, 1280, number, *drawing)
-    if name in book and name.startswith("ch"):
-        look_at_listings(name)
+    for i, (width, mode) in enumerate(views if place % 2 == 0 else reversed(views)):
+        window(width, mode)
+        if i == 0:
+            open_page(name)
+        elif not wait(f"document.documentElement.classList.contains('{mode}-mode')"):
+            fault(name, f"does not follow a system that turns {mode}")
+        look_at_page(name, width, mode)
+        for number, drawing in enumerate(stepped):
+            # The gallery has the drawings of all chapters once more.
+            if everything or (number == 0 if name == "figures.html" else width < 500 or number % 2 == 0):
+                walk_steps(name, width, number, *drawing)
+        if name in book and name.startswith("ch"):
+            if mode == "dark" and (everything or place % 4 == 0):
+                look_at_paper(name)
+            if mode == "light" and (everything or place % 4 == 2):
+                look_at_listings(name)
     for raw in run(raw_formulas):
         fault(name, f"a formula is left raw: {raw}")
     for image in run("return [...document.images].filter(i => !i.complete || !i.naturalWidth).map(i => i.src)"):
@@ -375,20 +318,20 @@ for system in ("light", "dark"):
     before = run(colours)
     if before[0] != system + "-mode":
         fault("dark mode", f"a {system} system gets {before[0]}")
-    chromium.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
+    chromium.driver.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
     after = run(colours)
     for what, old, new in zip(("mode", "page", "drawing"), before, after):
         if old == new and (what != "drawing" or with_drawing):
             fault("dark mode", f"the switch does not change the {what}: {old}")
-    chromium.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
+    chromium.driver.find_element(By.TAG_NAME, "doxygen-awesome-dark-mode-toggle").click()
     if run(colours) != before:
         fault("dark mode", "switching twice does not come back")
 
 # By keyboard: from the search field on comes the switch, which a key turns, and never a box that nobody sees.
 window(1280)
 open_page("index.html")
-chromium.find_element(By.ID, "MSearchField").send_keys(Keys.TAB)
-switch = chromium.switch_to.active_element
+chromium.driver.find_element(By.ID, "MSearchField").send_keys(Keys.TAB)
+switch = chromium.driver.switch_to.active_element
 if switch.tag_name != "doxygen-awesome-dark-mode-toggle" or not switch.get_attribute("aria-label"):
     fault("keyboard", f"after the search field comes {switch.tag_name} {switch.get_attribute('id')}")
 else:
@@ -404,33 +347,32 @@ window(390)
 open_page("exercises.html")
 if run("return [...document.querySelectorAll('#main-menu a[aria-current=page]')].map((a) => a.textContent)") != ["Exercises"]:
     fault("menu", "a phone's does not mark the page")
-chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=True))
+chromium.command("Emulation.setScriptExecutionDisabled", value=True)
 for width in (390, 1280):
     window(width)
-    chromium.get((site / "exercises.html").as_uri())
+    chromium.open(site / "exercises.html")
     names = run("return [...document.querySelectorAll('.plain-menu a')].filter((a) => a.getClientRects().length).map((a) => a.textContent)")
     if "Exercises" not in names or "Glossary" not in names or "Code" not in names:
         fault("menu", f"without scripts it has {names}")
 # ... and of a drawing with steps the last step stands, with all sentences.
-for name in book:
-    stepped = list(drawings_with_steps(name))
-    if stepped:
-        chromium.get((site / name).as_uri())
-    for number, (_, tells) in enumerate(stepped):
+pages_with_steps = [name for name in book if '<ol class="steps">' in (site / name).read_text()]
+for name in pages_with_steps if everything else pages_with_steps[::4]:
+    chromium.open(site / name)
+    for number, (_, tells) in enumerate(drawings_with_steps(name)):
         still = run(static.replace("NUMBER", str(number)))
         if still["bar"] or still["tells"] != len(tells) or still["shown"] != still["lasts"]:
             fault(name, f"without scripts a drawing is not the last step's: {still}")
-chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", dict(value=False))
+chromium.command("Emulation.setScriptExecutionDisabled", value=False)
 
 # The search, by keyboard: something is found, and opening it leads to a page that has the word.
 def results():
-    return [element.text for element in chromium.find_elements(By.CSS_SELECTOR, "#search-results a")]
+    return [element.text for element in chromium.driver.find_elements(By.CSS_SELECTOR, "#search-results a")]
 
 
 window(1280)
 for word in ("Möller", "moller", "rasteriser", "closest_hit"):
     open_page("index.html")
-    field = chromium.find_element(By.ID, "MSearchField")
+    field = chromium.driver.find_element(By.ID, "MSearchField")
     field.send_keys(word)
     if not wait("document.querySelectorAll('#search-results a').length"):
         fault("search", f"finds nothing for {word}")
@@ -440,10 +382,10 @@ for word in ("Möller", "moller", "rasteriser", "closest_hit"):
         fault("search", f"{word}: Enter opens nothing")
     text = run("return document.body.textContent.normalize('NFD').replace(/\\p{Mark}/gu, '').toLowerCase()")
     if word.replace("ö", "o").lower() not in text:
-        fault("search", f"{word}: the page {chromium.current_url} does not have the word")
+        fault("search", f"{word}: the page {chromium.driver.current_url} does not have the word")
 # Words that begin so come before those in which the letters stand somewhere: NaN before discriminant.
 open_page("index.html")
-chromium.find_element(By.ID, "MSearchField").send_keys("nan")
+chromium.driver.find_element(By.ID, "MSearchField").send_keys("nan")
 wait("document.querySelectorAll('#search-results a').length")
 for text in results()[:3]:
     if not re.search(r"\bnan", text, re.IGNORECASE):
@@ -453,14 +395,11 @@ for text in run("return window.bookText.map((entry) => entry.text)"):
         fault("search", f"shows raw formulas: {text[:80]}")
         break
 open_page("index.html")
-chromium.find_element(By.ID, "MSearchField").send_keys("xyzzyplugh")
+chromium.driver.find_element(By.ID, "MSearchField").send_keys("xyzzyplugh")
 wait("document.getElementById('search-results').textContent")
 if results():
     fault("search", "finds what is not in the book")
 look_at_logs("search")
-chromium.quit()
-
-for line in faults:
-    print(line)
-print(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings, {texts} texts, {steps_walked} steps: {len(faults)} faults")
-sys.exit(1 if faults else 0)
+chromium.driver.quit()
+finish(f"{len(pages)} pages, {len(book)} of the book opened at two widths, {formulas} formulas, {drawings} drawings, "
+       f"{texts} texts, {steps_walked} steps")

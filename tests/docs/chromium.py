@@ -42,6 +42,7 @@ class Chromium:
         self.driver = webdriver.Chrome(service=Service(driver), options=options)
         self.driver.set_page_load_timeout(60)
         self.driver.set_script_timeout(300)
+        self.size = self.media = None
 
     def run(self, script):
         return self.driver.execute_script(script)
@@ -59,8 +60,12 @@ class Chromium:
         return self.driver.execute_cdp_cmd(name, arguments)
 
     def window(self, width, height=900, mode="light", media=""):
-        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 500)
-        self.command("Emulation.setEmulatedMedia", media=media, features=[dict(name="prefers-color-scheme", value=mode)])
+        """Only what changes is told: a page of a megabyte is laid out anew for each of the two."""
+        if self.size != (width, height):
+            self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 500)
+        if self.media != (mode, media):
+            self.command("Emulation.setEmulatedMedia", media=media, features=[dict(name="prefers-color-scheme", value=mode)])
+        self.size, self.media = (width, height), (mode, media)
 
     def open(self, file, anchor=""):
         self.driver.get(pathlib.Path(file).resolve().as_uri() + anchor)
