@@ -1,6 +1,7 @@
 #include "chapters/ch01_naive_ray_tracing/naive.hpp"
 #include "chapters/ch04_kd_trees/measured/careless.hpp"
 #include "chapters/ch04_kd_trees/measured/measurements.hpp"
+#include "common/aimed_rays.hpp"
 #include "common/parallel.hpp"
 #include "common/program/progress.hpp"
 #include "common/random_rays.hpp"
@@ -58,7 +59,7 @@ Point3 corner_of_part(const std::vector<Triangle>& triangles, const KdNodes<3>& 
 }
 
 /// Rays at what floats find hard: corners, points of edges, corners of parts in one tree's leaves
-/// and in another's; half of them graze an axis-parallel plane, by less than a float's last place.
+/// and in another's; half of them graze.
 std::vector<Ray> aimed_rays(const std::vector<Triangle>& triangles, const KdNodes<3>& tree,
                             const KdNodes<3>& other, std::size_t count, std::uint64_t seed) {
     std::vector<Ray> rays = rays_from_around(triangles, count, seed);
@@ -74,11 +75,7 @@ std::vector<Ray> aimed_rays(const std::vector<Triangle>& triangles, const KdNode
             aim = corner_of_part(triangles, i % 4 == 2 ? tree : other, random);
         }
         rays[i].direction = aim - rays[i].origin;
-        if (i % 8 < 4) {
-            const int axis = static_cast<int>(random.below(3));
-            rays[i].origin[axis] = aim[axis];
-            rays[i].direction[axis] = random.uniform(-0x1p-24f, 0x1p-24f) * aim[axis];
-        }
+        if (i % 8 < 4) graze(rays[i], aim, random);
     }
     return rays;
 }
