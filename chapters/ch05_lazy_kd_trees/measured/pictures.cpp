@@ -7,6 +7,8 @@
 #include "common/program/progress.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,35 +28,42 @@ std::pair<Drawn, Image> draw(const Scene& scene, const Tree& tree, const RenderS
             std::move(drawn.image)};
 }
 
-/// Builds and draws once more, for the clock.
 template <class Tree>
-std::pair<double, double> build_and_total(const std::vector<Triangle>& triangles,
-                                          const Scene& scene, const RenderSettings& settings) {
+double draw_ms(const Scene& scene, const Tree& tree, const RenderSettings& settings) {
     Stopwatch stopwatch;
-    const auto tree = Tree::build(triangles);
-    const double build = stopwatch.lap().count();
     do_not_optimize(render<NoCounts>(scene, tree, settings));
-    return {build, build + stopwatch.lap().count()};
+    return stopwatch.lap().count();
 }
 
-/// Both trees in turn, on one thread.
-void time_view(ViewPoint& point, const std::vector<Triangle>& triangles, const Scene& scene,
-               RenderSettings settings, int rounds) {
+/// All views once more, for the clock, both trees in turn, on one thread. The eager tree is the
+/// same for all views, so each round builds it once.
+void time_views(std::span<ViewPoint> points, const std::vector<Triangle>& triangles,
+                const ViewedScene& viewed, RenderSettings settings, int rounds) {
     settings.threads = 1;
     if (triangles.size() > 300'000) rounds = std::min(rounds, 2);  // seconds each
-    std::vector<double> eager_build, eager_total, lazy_build, lazy_total;
+    std::vector<double> eager_build;
+    std::vector<std::array<std::vector<double>, 3>> of_views(points.size());
     for (int round = 0; round < rounds; ++round) {
-        const auto [eager, eager_all] = build_and_total<KdTree<>>(triangles, scene, settings);
-        const auto [lazy, lazy_all] = build_and_total<LazyKdTree<>>(triangles, scene, settings);
-        eager_build.push_back(eager);
-        eager_total.push_back(eager_all);
-        lazy_build.push_back(lazy);
-        lazy_total.push_back(lazy_all);
+        Stopwatch stopwatch;
+        const auto eager = KdTree<>::build(triangles);
+        eager_build.push_back(stopwatch.lap().count());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Scene scene = viewed.seen(viewed.views[i]);
+            auto& [eager_total, lazy_build, lazy_total] = of_views[i];
+            eager_total.push_back(eager_build.back() + draw_ms(scene, eager, settings));
+            stopwatch.lap();
+            const auto lazy = LazyKdTree<>::build(triangles);
+            lazy_build.push_back(stopwatch.lap().count());
+            lazy_total.push_back(lazy_build.back() + draw_ms(scene, lazy, settings));
+        }
     }
-    point.eager.build_ms = median(eager_build);
-    point.eager.total_ms = median(eager_total);
-    point.lazy.build_ms = median(lazy_build);
-    point.lazy.total_ms = median(lazy_total);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& [eager_total, lazy_build, lazy_total] = of_views[i];
+        points[i].eager.build_ms = median(eager_build);
+        points[i].eager.total_ms = median(eager_total);
+        points[i].lazy.build_ms = median(lazy_build);
+        points[i].lazy.total_ms = median(lazy_total);
+    }
 }
 
 std::uint64_t differing_pixels(const Image& a, const Image& b) {
@@ -72,7 +81,7 @@ std::vector<ViewPoint> measure_views(const Options& options) {
     const Limits limit = limits(options);
     const RenderSettings settings{
         .width = limit.width, .height = limit.height, .threads = options.threads};
-    const std::vector<ViewedScene> scenes = viewed_scenes(options);
+    const std::vector<ViewedScene>& scenes = measured_once<viewed_scenes>(options);
     std::vector<ViewPoint> points;
     Progress progress("views", scenes.size());
     for (const ViewedScene& viewed : scenes) {
@@ -94,8 +103,10 @@ std::vector<ViewPoint> measure_views(const Options& options) {
                               .nodes_singly = singly_drawn.nodes,
                               .other_pixels = differing_pixels(eager_image, lazy_image) +
                                               differing_pixels(eager_image, singly_image)});
-            if (!options.small) time_view(points.back(), triangles, scene, settings, limit.rounds);
         }
+        if (!options.small)
+            time_views(std::span(points).last(viewed.views.size()), triangles, viewed, settings,
+                       limit.rounds);
         progress.step();
     }
     return points;
@@ -103,7 +114,7 @@ std::vector<ViewPoint> measure_views(const Options& options) {
 
 std::vector<MemoryPoint> measure_memory(const Options& options) {
     const Limits limit = limits(options);
-    const ViewedScene viewed = viewed_scenes(options).front();
+    const ViewedScene& viewed = measured_once<viewed_scenes>(options).front();
     const std::vector<Triangle> triangles = viewed.scene.mesh.triangles();
     const std::uint64_t eager_bytes = KdTree<>::build(triangles).shape().bytes;
     const auto lazy = LazyKdTree<>::build(triangles);

@@ -7,7 +7,6 @@
 #include "common/random.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -30,14 +29,36 @@ std::vector<Ray> rays_to_part(const std::vector<Triangle>& triangles,
     return rays;
 }
 
-/// Builds, makes all nodes if so wanted, and asks each ray.
 template <class Tree>
-void build_and_trace(const std::vector<Triangle>& triangles, const std::vector<Ray>& rays,
-                     bool all) {
-    const auto tree = Tree::build(triangles);
-    if constexpr (requires { tree.build_all(); })
-        if (all) tree.build_all();
+void ask_all(const Tree& tree, const std::vector<Ray>& rays) {
     for (const Ray& ray : rays) do_not_optimize(closest_hit(tree, ray));
+}
+
+/// Builds, makes all nodes if so wanted, and asks each part's rays, both trees in turn. The eager
+/// tree is the same for all parts, so each round builds it once.
+void time_parts(std::vector<ReachPoint>& points, const std::vector<std::vector<Ray>>& rays,
+                const std::vector<Triangle>& triangles, int rounds) {
+    std::vector<std::vector<double>> eager_ms(points.size()), lazy_ms(points.size());
+    Progress progress("times of parts", std::size_t(rounds) * points.size());
+    for (int round = 0; round < rounds; ++round) {
+        Stopwatch stopwatch;
+        const auto eager = KdTree<>::build(triangles);
+        const double build_ms = stopwatch.lap().count();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            stopwatch.lap();
+            ask_all(eager, rays[i]);
+            eager_ms[i].push_back(build_ms + stopwatch.lap().count());
+            const auto lazy = LazyKdTree<>::build(triangles);
+            if (points[i].is_everything()) lazy.build_all();
+            ask_all(lazy, rays[i]);
+            lazy_ms[i].push_back(stopwatch.lap().count());
+            progress.step();
+        }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].eager_ms = median(eager_ms[i]);
+        points[i].lazy_ms = median(lazy_ms[i]);
+    }
 }
 
 }  // namespace
@@ -53,10 +74,11 @@ std::vector<ReachPoint> measure_reach(const Options& options) {
     const auto eager = KdTree<>::build(triangles);
     const std::vector<double> shares{0.0, 0.001, 0.01, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0};
     std::vector<ReachPoint> points;
+    std::vector<std::vector<Ray>> rays_to;
     Progress progress("parts of a scene", shares.size());
     for (const double share : shares) {
-        const std::vector<Ray> rays =
-            rays_to_part(triangles, in_order, share, limit.rays, options.seed);
+        const std::vector<Ray>& rays = rays_to.emplace_back(
+            rays_to_part(triangles, in_order, share, limit.rays, options.seed));
         ReachPoint point{.share = share, .rays = rays.size()};
         const auto lazy = LazyKdTree<>::build(triangles);
         if (point.is_everything()) lazy.build_all();
@@ -64,18 +86,10 @@ std::vector<ReachPoint> measure_reach(const Options& options) {
             point.different += closest_hit(lazy, ray) != closest_hit(eager, ray);
         point.nodes = *lazy.shape().nodes;
         point.all_nodes = *eager.shape().nodes;
-        if (!options.small && limit.rounds > 0) {
-            const bool all = point.is_everything();
-            const std::vector<std::function<void()>> runs{
-                [&] { build_and_trace<KdTree<>>(triangles, rays, all); },
-                [&] { build_and_trace<LazyKdTree<>>(triangles, rays, all); }};
-            const std::vector<double> ms = interleaved_medians(runs, limit.rounds);
-            point.eager_ms = ms[0];
-            point.lazy_ms = ms[1];
-        }
         points.push_back(point);
         progress.step();
     }
+    if (!options.small && limit.rounds > 0) time_parts(points, rays_to, triangles, limit.rounds);
     return points;
 }
 

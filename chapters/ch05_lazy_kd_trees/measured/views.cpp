@@ -1,6 +1,7 @@
 #include "chapters/ch05_lazy_kd_trees/measured/views.hpp"
 
-#include "chapters/ch04_kd_trees/kd_tree.hpp"
+#include "chapters/ch01_naive_ray_tracing/naive.hpp"
+#include "chapters/ch02_intersection_tests/filtered_exact.hpp"
 #include "chapters/ch05_lazy_kd_trees/measured/measurements.hpp"
 #include "common/program/error.hpp"
 #include "common/random.hpp"
@@ -17,10 +18,9 @@ namespace {
 
 /// What the middle of the picture shows.
 Point3 middle_of(const Scene& scene) {
-    const std::vector<Triangle> triangles = scene.mesh.triangles();
-    const auto tree = KdTree<>::build(triangles);
+    const auto naive = Naive<FilteredExact>::build(scene.mesh.triangles());
     const Vector3 way = scene.camera.target - scene.camera.eye;
-    const auto hit = closest_hit(tree, {.origin = scene.camera.eye, .direction = way});
+    const auto hit = closest_hit(naive, {.origin = scene.camera.eye, .direction = way});
     return hit ? scene.camera.eye + hit->t * way : scene.camera.target;
 }
 
