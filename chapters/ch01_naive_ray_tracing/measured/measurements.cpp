@@ -245,7 +245,7 @@ VertexLeaks measure_leaks(const Options& options) {
 
 std::vector<GrowthPoint> measure_growth(const Options& options) {
     const Amount amount = options.amount();
-    constexpr int naive_width = 8, naive_height = 6, width = 160, height = 120;
+    constexpr int naive_width = 6, naive_height = 4, width = 160, height = 120;
     const std::vector<Measured> scenes = amount == Amount::small   ? series(2, 0)
                                          : amount == Amount::quick ? series(0, 3)
                                                                    : series(0, 4);
