@@ -48,16 +48,13 @@ struct Timed {
     static constexpr double longest_again_ms = 300.0;
 };
 
-/// Answers of the tree that are not those of the task's.
+/// Traces all rays of a kind that has answers; those that are not the task's.
 template <Accelerator A>
-std::uint64_t differences(const A& tree, const RayTask& task) {
+std::uint64_t differences(const A& tree, const std::vector<Ray>& rays, const Answers& answers,
+                          TraversalCounts& counts) {
     std::uint64_t count = 0;
-    const auto compare = [&](std::size_t kind, const Answers& answers) {
-        for (std::size_t i = 0; i < answers.size(); ++i)
-            count += closest_hit(tree, task.rays[kind][i]) != answers[i];
-    };
-    compare(camera_kind, task.camera_hits);
-    compare(diffuse_kind, task.diffuse_hits);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        count += tree.closest_hit(rays[i], counts) != answers[i];
     return count;
 }
 
@@ -77,15 +74,21 @@ void measure_tree(const RayTask& task, const AnyBuilder::Config& config, TreePoi
     point.depth = *shape.depth;
     point.bytes = shape.bytes;
     point.cost = tree->nodes().sah_cost({});
+    std::uint64_t differ = 0;
     for (std::size_t kind = 0; kind < ray_kinds.size(); ++kind) {
         TraversalCounts counts;
-        trace(*tree, task, kind, counts);
+        if (kind == shadow_kind)
+            trace(*tree, task, kind, counts);
+        else
+            differ +=
+                differences(*tree, task.rays[kind],
+                            kind == camera_kind ? task.camera_hits : task.diffuse_hits, counts);
         point.rays[kind] = {.rays = task.rays[kind].size(),
                             .nodes = counts.nodes_visited,
                             .tests = counts.triangles_tested};
     }
     point.checked = task.checked;
-    if (point.builder != bins_float) point.wrong = task.wrong + differences(*tree, task);
+    if (point.builder != bins_float) point.wrong = task.wrong + differ;
     timed.add(
         point, [build] { do_not_optimize(build()); }, runs(task, tree));
 }
