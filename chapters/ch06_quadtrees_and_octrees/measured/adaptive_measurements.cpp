@@ -111,16 +111,20 @@ AdaptivePoint compare(const SampledScene& scene, const Way& way, const Image& fu
     return point;
 }
 
-/// All ways in turn with the full picture, on one thread.
+/// All ways in turn with the full picture, on one thread; with other first cells none.
 void time_ways(const SampledScene& scene, const std::vector<Way>& tried, int rounds,
                std::span<AdaptivePoint> points) {
     std::vector<std::function<void()>> candidates{[&] { do_not_optimize(scene.full()); }};
-    for (const Way& way : tried)
-        candidates.push_back([&] { do_not_optimize(sampled(scene, way)); });
+    std::vector<AdaptivePoint*> timed;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+        if (tried[i].config.first_cell != AdaptivePoint::usual_first_cell) continue;
+        candidates.push_back([&, i] { do_not_optimize(sampled(scene, tried[i])); });
+        timed.push_back(&points[i]);
+    }
     const std::vector<double> medians = interleaved_medians(candidates, rounds);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        points[i].full_ms = medians[0];
-        points[i].ms = medians[i + 1];
+    for (std::size_t i = 0; i < timed.size(); ++i) {
+        timed[i]->full_ms = medians[0];
+        timed[i]->ms = medians[i + 1];
     }
 }
 

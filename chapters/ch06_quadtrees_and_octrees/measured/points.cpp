@@ -65,19 +65,20 @@ template <int D>
 PointTree point_tree(const PointKind& kind, std::size_t n, const Options& options) {
     const std::vector<Point<D>> points = points_of<D>(kind, n, options.seed);
     const LinearOrthtreeConfig config{.leaf_size = 1};
-    const auto tree = OrthtreePoints<D>::build(points, config);
+    const auto tree = OrthtreePoints<D>::build(points, config);  // which warms up
     PointTree point{
         .points = std::string(kind.name), .dimensions = D, .n = n, .depth = tree.cells.depth};
     point.nodes = tree.cells.nodes.size();
     point.cells = 1;
     for (const auto& node : tree.cells.nodes)
         if (!node.is_leaf()) point.cells += orthants<D>;
-    if (limits(options).rounds > 0) {
-        const std::function<void()> build = [&] {
-            do_not_optimize(OrthtreePoints<D>::build(points, config));
-        };
-        point.build_ms = interleaved_medians(std::span(&build, 1), limits(options).rounds)[0];
+    std::vector<double> ms;
+    for (int round = 0; round < limits(options).rounds; ++round) {
+        Stopwatch stopwatch;
+        do_not_optimize(OrthtreePoints<D>::build(points, config));
+        ms.push_back(stopwatch.lap().count());
     }
+    if (!ms.empty()) point.build_ms = median(std::move(ms));
     return point;
 }
 

@@ -31,16 +31,19 @@ struct TreeTask {
     std::vector<Ray> rays;
     std::vector<std::optional<Hit>> truth;
 
-    TreeTask(std::string name, bool even, const Options& options)
+    TreeTask(std::string name, bool even, std::vector<Triangle> all, const Options& options)
         : scene(std::move(name)),
           is_even(even),
-          triangles(make_scene(scene, options.seed).mesh.triangles()),
+          triangles(std::move(all)),
           rays(rays_within(triangles, limits(options).rays, options.seed)),
           truth(std::min(rays.size(), most_tests / triangles.size())) {
         const auto naive = Naive<FilteredExact>::build(triangles);
         parallel_for(truth.size(), options.threads, 16,
                      [&](std::size_t i) { truth[i] = closest_hit(naive, rays[i]); });
     }
+
+    TreeTask(const std::string& name, bool even, const Options& options)
+        : TreeTask(name, even, make_scene(name, options.seed).mesh.triangles(), options) {}
 
   private:
     static constexpr std::size_t most_tests = 10'000'000;
@@ -53,10 +56,11 @@ struct Variant {
     std::function<std::function<void()>(const TreeTask&, TreePoint&)> build;
 };
 
-/// Counts a tree that `make` builds; the rays are shot by what is returned. A short build is done
-/// three times: one interruption is as long.
-template <class Make>
-std::function<void()> built(const TreeTask& task, TreePoint& point, const Make& make) {
+/// Counts a tree that `make` builds, and shows it to `look`; the rays are shot by what is returned.
+/// A short build is done three times: one interruption is as long.
+template <class Make, class Look>
+std::function<void()> built(const TreeTask& task, TreePoint& point, const Make& make,
+                            const Look& look) {
     using Tree = decltype(make());
     constexpr double short_ms = 20.0;
     std::shared_ptr<const Tree> tree;
@@ -83,9 +87,14 @@ std::function<void()> built(const TreeTask& task, TreePoint& point, const Make& 
     point.checked = task.truth.size();
     point.nodes_visited = counts.nodes_visited;
     point.tests = counts.triangles_tested;
+    look(*tree);
     return [&task, tree] {
         for (const Ray& ray : task.rays) do_not_optimize(closest_hit(*tree, ray));
     };
+}
+template <class Make>
+std::function<void()> built(const TreeTask& task, TreePoint& point, const Make& make) {
+    return built(task, point, make, [](const auto&) {});
 }
 
 template <class Tree>
@@ -130,11 +139,12 @@ std::uint64_t planes_computed(const TreeTask& task, const Octree<>& tree, Octree
 }
 
 Variant octree_walk(std::string_view name, OctreeConfig::Walk walk) {
-    return {name, [walk](const TreeTask& task, TreePoint& point) {
-                const auto build = [&] { return Octree<>::build(task.triangles, {.walk = walk}); };
-                point.planes = planes_computed(task, build(), walk);
-                return built(task, point, build);
-            }};
+    return {
+        name, [walk](const TreeTask& task, TreePoint& point) {
+            return built(
+                task, point, [&] { return Octree<>::build(task.triangles, {.walk = walk}); },
+                [&](const Octree<>& tree) { point.planes = planes_computed(task, tree, walk); });
+        }};
 }
 
 using Straddlers = OctreeConfig::Straddlers;
@@ -249,9 +259,9 @@ std::vector<TreePoint> measure_growth(const Options& options) {
     for (const GrowingScene& scene : growing_scenes()) {
         for (const std::size_t size : scene.sizes) {
             const std::string name = fmt::format("{}:{}", scene.name, size);
-            if (make_scene(name, options.seed).mesh.faces.size() > limits(options).most_triangles)
-                break;
-            const TreeTask task(name, false, options);
+            std::vector<Triangle> triangles = make_scene(name, options.seed).mesh.triangles();
+            if (triangles.size() > limits(options).most_triangles) break;
+            const TreeTask task(name, false, std::move(triangles), options);
             for (TreePoint& point : measure_variants(task, variants, options)) {
                 point.scene = scene.name;
                 points.push_back(std::move(point));
