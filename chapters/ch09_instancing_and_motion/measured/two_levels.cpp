@@ -138,7 +138,7 @@ std::vector<LevelsPoint> measure_levels(const Options& options) {
     if (options.counts) return {};  // the text quotes times of them, and checks answers in full
     const Amount amount = options.amount();
     const bool timed = amount != Amount::small;
-    const std::size_t rays = amount == Amount::small ? 500 : 40'000;
+    const std::size_t rays = amount == Amount::small ? 500 : 20'000;
     std::vector<LatticeObject> objects{{"icosphere:22", 4}, {"stadium", 4}};
     if (amount == Amount::small) objects = {{"icosphere:7", 2}};
     if (amount == Amount::full)
