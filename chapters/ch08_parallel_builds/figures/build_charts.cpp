@@ -5,7 +5,7 @@
 namespace space::ch08 {
 
 Chart fig_08_02(const Options& options) {
-    return gains_chart(measured_once<measure_scenes>(options));
+    return gains_chart(measured_once<measure_scenes>(options).points);
 }
 
 Chart fig_08_03(const Options& options) {
@@ -13,7 +13,7 @@ Chart fig_08_03(const Options& options) {
 }
 
 Chart fig_08_04(const Options& options) {
-    return quality_chart(measured_once<measure_scenes>(options));
+    return quality_chart(measured_once<measure_scenes>(options).points);
 }
 
 }  // namespace space::ch08

@@ -16,8 +16,9 @@ namespace space::ch08 {
 
 inline constexpr std::string_view sequential = "sequential", symmetric = "symmetric",
                                   asymmetric = "asymmetric", by_queue = "queue", ours = "ours",
-                                  embree = "Embree", by_sweep = "sweep", by_median = "median",
-                                  morton = "Morton", parallel_morton = "parallel Morton";
+                                  embree = "Embree", by_sweep = "sweep", morton = "Morton",
+                                  parallel_morton = "parallel Morton",
+                                  two_at_once = "two builds at once";
 
 /// The methods of [BvhThesis13], in the order of its tables.
 inline constexpr std::array<std::string_view, 3> published_methods{symmetric, asymmetric, by_queue};
@@ -66,6 +67,12 @@ struct CeilingPoint {
     Spread both_ms;    ///< two of them at once, until both are done
     Spread gain;       ///< 2 alone / both: 2 where neither is in the other's way
     Spread copy_gain;  ///< the same for copies of the triangles in memory
+};
+
+/// The five scenes like those of [BvhThesis13].
+struct SceneBuilds {
+    std::vector<BuildPoint> points;
+    std::vector<CeilingPoint> ceilings;
 };
 
 /// All of them.

@@ -108,7 +108,7 @@ Table builds_table(const std::vector<BuildPoint>& scenes) {
         for (const std::string_view method : {symmetric, asymmetric, by_queue, ours}) {
             const BuildPoint *one = point_of(scenes, scene, method, 1),
                              *two = point_of(scenes, scene, method, 2);
-            table.row({scene, std::string(method), seconds(one->ms), seconds(two->ms),
+            table.row({scene, std::string(method), one ? seconds(one->ms) : "", seconds(two->ms),
                        gain_text(two->gain), range_text(two->gain),
                        percent(1.0 - 1.0 / two->gain.median), published_fall(scene, method, 2)});
         }

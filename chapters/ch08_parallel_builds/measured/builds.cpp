@@ -2,7 +2,6 @@
 
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/bvh.hpp"
-#include "chapters/ch07_bounding_volume_hierarchies/median_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/morton_builder.hpp"
 #include "chapters/ch07_bounding_volume_hierarchies/sweep_builder.hpp"
 #include "chapters/ch08_parallel_builds/asymmetric_builder.hpp"
@@ -21,6 +20,7 @@
 #include <array>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <thread>
@@ -52,6 +52,20 @@ Method method(std::string_view name, unsigned threads, std::size_t most_triangle
             most_triangles};
 }
 
+/// Until all have done it.
+void at_once(int threads, const std::function<void()>& work) {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back(work);
+    work();
+}
+
+/// Two sequential builders, each with a tree of its own.
+Method two_builds() {
+    return {.name = two_at_once, .threads = 2, .build = [](std::span<const Triangle> triangles) {
+                at_once(2, [triangles] { do_not_optimize(Bvh<BinnedBuilder>::build(triangles)); });
+            }};
+}
+
 std::vector<Method> parallel_methods(unsigned threads) {
     return {method<SymmetricBuilder>(symmetric, threads),
             method<AsymmetricBuilder>(asymmetric, threads), method<QueueBuilder>(by_queue, threads),
@@ -69,7 +83,7 @@ std::optional<std::vector<Triangle>> triangles_of(const std::string& name, const
 }
 
 int rounds_of(const Options& options) {
-    return options.amount() == Amount::quick ? 3 : 5;
+    return options.amount() == Amount::quick ? 3 : 4;
 }
 
 /// Whether the method makes the sequential builder's tree, which measure_same_trees shows.
@@ -136,31 +150,25 @@ void add_same(std::vector<SamePoint>& points, const std::string& scene,
 
 // --- the ceiling ---
 
-/// Until all have done it.
-void at_once(int threads, const std::function<void()>& work) {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-}
-
-CeilingPoint ceiling(const std::string& scene, std::span<const Triangle> triangles, int rounds) {
-    const auto build = [triangles] { do_not_optimize(Bvh<BinnedBuilder>::build(triangles)); };
+/// From a scene's timed builds, and copies of its triangles.
+CeilingPoint ceiling(const std::vector<BuildPoint>& timed, std::span<const Triangle> triangles,
+                     int rounds) {
     const auto copy = [triangles] {
-        for (int i = 0; i < 4; ++i)
+        for (int i = 0; i < 2; ++i)
             do_not_optimize(std::vector<Triangle>(triangles.begin(), triangles.end()));
     };
-    const std::function<void()> runs[]{build, [&] { at_once(2, build); }, copy,
-                                       [&] { at_once(2, copy); }};
+    const std::function<void()> runs[]{copy, [&] { at_once(2, copy); }};
     const std::vector<Times> times = interleaved_times(runs, rounds);
     const auto doubled = [](Spread spread) {
         return Spread{2 * spread.median, 2 * spread.low, 2 * spread.high};
     };
-    return {.scene = scene,
+    const BuildPoint& both = *std::ranges::find(timed, two_at_once, &BuildPoint::method);
+    return {.scene = both.scene,
             .n = triangles.size(),
-            .alone_ms = spread_of(times[0]),
-            .both_ms = spread_of(times[1]),
-            .gain = doubled(ratio(times[0], times[1])),
-            .copy_gain = doubled(ratio(times[2], times[3]))};
+            .alone_ms = timed.front().ms,
+            .both_ms = both.ms,
+            .gain = doubled(both.gain),
+            .copy_gain = doubled(ratio(times[0], times[1]))};
 }
 
 std::vector<std::string> scenes_like_published(const Options& options) {
@@ -190,14 +198,13 @@ std::vector<SamePoint> measure_same_trees(const Options& options) {
     return points;
 }
 
-std::vector<BuildPoint> measure_scenes(const Options& options) {
-    std::vector<Method> methods{method<BinnedBuilder>(sequential, 1)};
-    for (const unsigned threads : {1u, 2u})
-        for (Method& some : parallel_methods(threads)) methods.push_back(std::move(some));
-    for (const unsigned threads : {1u, 2u})
-        methods.push_back(method<ParallelMortonBuilder>(parallel_morton, threads));
+SceneBuilds measure_scenes(const Options& options) {
+    // With one thread the published methods are the sequential builder.
+    std::vector<Method> methods{method<BinnedBuilder>(sequential, 1), two_builds(),
+                                method<WorkStealingBuilder>(ours, 1)};
+    for (Method& some : parallel_methods(2)) methods.push_back(std::move(some));
+    methods.push_back(method<ParallelMortonBuilder>(parallel_morton, 2));
     methods.push_back(method<MortonBuilder>(morton, 1));
-    methods.push_back(method<MedianBuilder>(by_median, 1));
     methods.push_back(method<SweepBuilder>(by_sweep, 1, 300'000));
     if (has_embree)
         for (const unsigned threads : {1u, 2u})
@@ -207,15 +214,18 @@ std::vector<BuildPoint> measure_scenes(const Options& options) {
                                    build_with_embree(triangles, threads);
                                }});
     const std::vector<std::string> scenes = scenes_like_published(options);
-    std::vector<BuildPoint> points;
+    SceneBuilds measured;
     Progress progress("builds", scenes.size());
     for (const std::string& scene : scenes) {
-        if (const auto triangles = triangles_of(scene, options))
-            for (BuildPoint& point : timed(scene, *triangles, methods, rounds_of(options)))
-                points.push_back(std::move(point));
+        if (const auto triangles = triangles_of(scene, options)) {
+            const int rounds = rounds_of(options);
+            std::vector<BuildPoint> points = timed(scene, *triangles, methods, rounds);
+            measured.ceilings.push_back(ceiling(points, *triangles, rounds));
+            std::ranges::move(points, std::back_inserter(measured.points));
+        }
         progress.step();
     }
-    return points;
+    return measured;
 }
 
 std::vector<BuildPoint> measure_build_growth(const Options& options) {
@@ -238,21 +248,13 @@ std::vector<BuildPoint> measure_build_growth(const Options& options) {
     return points;
 }
 
-std::vector<CeilingPoint> measure_ceilings(const Options& options) {
-    std::vector<CeilingPoint> points;
-    for (const std::string& scene : scenes_like_published(options))
-        if (const auto triangles = triangles_of(scene, options))
-            points.push_back(ceiling(scene, *triangles, rounds_of(options)));
-    return points;
-}
-
 BuildMeasurements measure_builds(const Options& options) {
     BuildMeasurements measured;
     measured.same = measure_same_trees(options);
     if (options.small || options.counts) return measured;
-    measured.scenes = measured_once<measure_scenes>(options);
+    measured.scenes = measured_once<measure_scenes>(options).points;
+    measured.ceilings = measured_once<measure_scenes>(options).ceilings;
     measured.growth = measured_once<measure_build_growth>(options);
-    measured.ceilings = measure_ceilings(options);
     return measured;
 }
 

@@ -15,9 +15,8 @@ namespace space::ch08 {
 
 std::vector<SamePoint> measure_same_trees(const Options& options);
 /// Times alone. Scenes that this machine does not have are left out, with a message.
-std::vector<BuildPoint> measure_scenes(const Options& options);
+SceneBuilds measure_scenes(const Options& options);
 std::vector<BuildPoint> measure_build_growth(const Options& options);
-std::vector<CeilingPoint> measure_ceilings(const Options& options);
 BuildMeasurements measure_builds(const Options& options);
 
 void print_builds(const BuildMeasurements& measured, bool times);

@@ -105,7 +105,7 @@ std::vector<BusyTime> measure_busy_times(const Options& options) {
     const auto triangles =
         make_scene(options.quick ? "building:3" : "building:20", options.seed).mesh.triangles();
     std::vector<BusyTime> times;
-    const int rounds = options.quick ? 3 : 9;
+    const int rounds = options.quick ? 3 : 5;
     add_busy_times<AsymmetricBuilder>(asymmetric, triangles, rounds, times);
     add_busy_times<SymmetricBuilder>(symmetric, triangles, rounds, times);
     add_busy_times<QueueBuilder>(by_queue, triangles, rounds, times);

@@ -24,7 +24,7 @@ struct Effort {
     int turns = 1'000'000;                     ///< of a lock, by all threads together
     std::chrono::milliseconds preempted{200};  ///< how long a holder keeps sleeping
     std::vector<std::string> scenes = {"icosphere:122", "soup:300000"};
-    int build_rounds = 15;
+    int build_rounds = 9;
 };
 
 Effort effort(const Options& options) {

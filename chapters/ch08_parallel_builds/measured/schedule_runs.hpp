@@ -27,14 +27,15 @@ struct NamedMethod {
     std::string_view name;
     ParallelMethod method;
 };
-std::vector<NamedMethod> compared_methods(bool small);   ///< published ones and ours
-std::vector<NamedMethod> condition_methods(bool small);  ///< the queue by each condition
+std::vector<NamedMethod> compared_methods(bool small);  ///< published ones and ours
+std::vector<NamedMethod> condition_methods();           ///< the queue by each condition
 
 /// Times dividing the work: threads, lock, loops; bytes by this build.
 MeasuredCosts measure_costs(const RecordedBuild& build, int rounds);
 SchedulingCosts scheduling_costs(const MeasuredCosts& costs, bool has_bandwidth);
 
-/// The published methods and ours by 1 and 2 threads, measured and simulated.
+/// The published methods and ours by 1 and 2 threads, measured and simulated; once what is the same:
+/// all published ones by 1 thread, and the first two by 2.
 std::vector<ValidationPoint> validate(const RecordedBuild& build, const SchedulingCosts& costs,
                                       int rounds);
 

@@ -118,8 +118,8 @@ SimulatedPoint simulated(const RecordedBuild& build, const MeasuredCosts& costs,
             .lock_wait = schedule.spent(Doing::lock_wait) / all};
 }
 
-/// All methods from 1 to 256 cores, with as much memory as they ask for; on many cores also with
-/// this machine's.
+/// All methods from 1 to 256 cores, with as much memory as they ask for, and on 64 with this
+/// machine's; the queue's conditions on four.
 void simulate_all(const RecordedBuild& build, const MeasuredCosts& costs, const Options& options,
                   std::vector<SimulatedPoint>& points) {
     struct Simulation {
@@ -128,14 +128,13 @@ void simulate_all(const RecordedBuild& build, const MeasuredCosts& costs, const 
         bool has_bandwidth;
     };
     std::vector<Simulation> all;
-    const auto add = [&](const std::vector<NamedMethod>& methods, bool has_bandwidth) {
-        for (const NamedMethod& method : methods)
-            for (unsigned cores = 1; cores <= 256; cores *= 2)
-                all.push_back({method, cores, has_bandwidth});
-    };
-    add(compared_methods(options.small), false);
-    add(condition_methods(options.small), false);
-    if (costs.bandwidth_share() > 0.0) add(compared_methods(options.small), true);
+    for (const NamedMethod& method : compared_methods(options.small))
+        for (unsigned cores = 1; cores <= 256; cores *= 2) {
+            all.push_back({method, cores, false});
+            if (costs.bandwidth_share() > 0.0 && (cores == 64 || method.name == ours))
+                all.push_back({method, cores, true});
+        }
+    for (const NamedMethod& method : condition_methods()) all.push_back({method, 4, false});
     const std::size_t first = points.size();
     points.resize(first + all.size());
     parallel_for(all.size(), options.threads, 1, [&](std::size_t i) {
@@ -169,7 +168,7 @@ std::vector<NamedMethod> compared_methods(bool small) {
             {ours, stealing}};
 }
 
-std::vector<NamedMethod> condition_methods(bool) {
+std::vector<NamedMethod> condition_methods() {
     std::vector<NamedMethod> methods;
     constexpr std::array conditions{Condition::threads, Condition::twice_threads,
                                     Condition::threads_to_threads, Condition::depth};
