@@ -18,9 +18,9 @@
 
 namespace space::ch11 {
 
-/// The picture of ./book render --scene room:32 --samples 256 --exposure 1.15.
+/// The picture of ./book render --scene room:32 --samples 128 --exposure 1.15.
 Image fig_11_01(const Options& options) {
-    constexpr std::uint32_t samples = 256;
+    constexpr std::uint32_t samples = 128;
     const LitScene lit = make_lit_scene("room:32");
     const LightTable lights(lit);
     const FastBvh<> tree = FastBvh<>::build(lit.triangles);

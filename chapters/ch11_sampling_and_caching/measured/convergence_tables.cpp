@@ -74,11 +74,16 @@ Table cache_table(const Convergence& found) {
                  "seconds"});
     const std::vector<ErrorPoint> constant = found.of("cache, constant"),
                                   gradients = found.of("cache, gradients");
-    for (std::size_t i = 0; i < constant.size(); ++i) {
-        const ErrorPoint &c = constant[i], &g = gradients[i];
-        table.row({c.setting, with_commas(c.work), error_text(c.error, found),
-                   seconds_text(c.seconds), with_commas(g.work), error_text(g.error, found),
-                   seconds_text(g.seconds)});
+    for (const ErrorPoint& g : gradients) {
+        std::vector<std::string> row{g.setting, "", "", ""};
+        const auto c = std::ranges::find(constant, g.setting, &ErrorPoint::setting);
+        if (c != constant.end())
+            row = {c->setting, with_commas(c->work), error_text(c->error, found),
+                   seconds_text(c->seconds)};
+        for (const std::string& text :
+             {with_commas(g.work), error_text(g.error, found), seconds_text(g.seconds)})
+            row.push_back(text);
+        table.row(row);
     }
     return table;
 }
