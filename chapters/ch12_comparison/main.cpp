@@ -6,6 +6,7 @@
 #include "chapters/ch12_comparison/lab.hpp"
 #include "chapters/ch12_comparison/measured/accuracy_data.hpp"
 #include "chapters/ch12_comparison/measured/advice_fit.hpp"
+#include "chapters/ch12_comparison/measured/child_overlap.hpp"
 #include "chapters/ch12_comparison/measured/comparison.hpp"
 #include "chapters/ch12_comparison/measured/comparison_tables.hpp"
 #include "chapters/ch12_comparison/measured/lab_counts.hpp"
@@ -85,6 +86,7 @@ int run(int argc, char** argv) {
     if (options.counts && options.quick) {  // what takes seconds
         Numbers numbers;
         count_lab(numbers);
+        count_child_overlap(options.seed, numbers);
         numbers.write(options.out, provenance(std::string(this_chapter.name), options));
         return exit_code(0);
     }
@@ -96,7 +98,10 @@ int run(int argc, char** argv) {
     wrong += wrong_answers(comparison);
 
     Numbers numbers;
-    if (!options.small) count_lab(numbers);
+    if (!options.small) {
+        count_lab(numbers);
+        count_child_overlap(options.seed, numbers);
+    }
     quote_comparison(comparison, times, numbers);
     if (times) {
         const JudgedAdvice& advice = measured_once<measure_advice>(options);

@@ -124,6 +124,74 @@ TEST_CASE("both halves have every kind that has two sizes, and neither has a fil
     }
 }
 
+namespace {
+
+/// The made scenes in their smallest size, on which chance decides which of two structures is ten
+/// times as quick; a peer and bvh-instanced are quicker than both.
+Comparison decided_by_chance() {
+    Comparison comparison;
+    Pcg32 random(4);
+    for (const ComparedScene& scene : compared_scenes()) {
+        if (scene.specs.size() < 2) continue;  // of a file
+        const bool is_one = random.uniform_double() < 0.5;
+        for (const char* name : {"one", "other", "bvh-instanced", "embree"}) {
+            ComparedRow row{.scene = std::string(scene.name),
+                            .spec = scene.specs.front(),
+                            .triangles = 1000,
+                            .structure = name,
+                            .is_peer = name == std::string("embree"),
+                            .build_ms = 1.0,
+                            .bytes = 1000};
+            const bool is_quick = is_one == (row.structure == "one");
+            const bool is_ours = row.structure == "one" || row.structure == "other";
+            for (TracedKind& kind : row.traced) {
+                kind.rays = 1;
+                kind.ns_per_ray = is_ours ? (is_quick ? 100.0 : 1000.0) : 1.0;
+            }
+            comparison.rows.push_back(row);
+        }
+    }
+    return comparison;
+}
+
+}  // namespace
+
+TEST_CASE("the advice is judged by scenes that it has not seen, and by our structures alone") {
+    const JudgedAdvice judged = judge_advice(decided_by_chance(), 1);
+    const auto seen = [&](const std::string& spec) {
+        return std::ranges::find(judged.scenes, spec, &SeenScene::spec)->is_fitted;
+    };
+    REQUIRE(judged.fitted.size() == 8 * 11);
+    REQUIRE(judged.other_half.size() == 7 * 11);
+    CHECK(judged.fetched.empty());
+    for (const AdviceCase& c : judged.fitted) CHECK(seen(c.spec));
+    for (const auto* cases : {&judged.fitted, &judged.other_half})
+        for (const AdviceCase& c : *cases) {
+            CHECK((c.best == "one" || c.best == "other"));
+            CHECK((c.advised == "one" || c.advised == "other"));
+        }
+    for (const AdviceCase& c : judged.other_half) CHECK_FALSE(seen(c.spec));
+    const AdviceModel model = read_advice(judged.model_csv);
+    REQUIRE(model.structures.size() == 2);
+    CHECK(model.structures[0].structure == "one");
+}
+
+TEST_CASE("a way that knows each scene by heart is no good on kinds that it has not seen") {
+    const JudgedAdvice judged = judge_advice(decided_by_chance(), 1);
+    const auto neighbours = std::ranges::find(judged.methods, "neighbours", &AdviceMethod::name);
+    REQUIRE(neighbours != judged.methods.end());
+    CHECK(neighbours->cases == 8 * 11);
+    CHECK(neighbours->share() < 0.9);  // chance is not foretold
+    CHECK(neighbours->worst_ratio > 5.0);
+    // The way that is kept is a regression, and none of those has a smaller mean.
+    const AdviceMethod& chosen = judged.methods[judged.chosen];
+    CHECK(chosen.name != "one for all");
+    CHECK(chosen.name != "neighbours");
+    for (const AdviceMethod& method : judged.methods)
+        if (method.name != "one for all" && method.name != "neighbours")
+            CHECK(chosen.mean_ratio <= method.mean_ratio);
+}
+
 TEST_CASE("a summary counts what is good, and its mean is that of the logarithms") {
     std::vector<AdviceCase> cases(2);
     cases[0].advised_ns = cases[0].best_ns = 5.0;

@@ -9,9 +9,11 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -120,6 +122,20 @@ TEST_CASE("all rows ask the same questions, and of the book none is answered wro
     }
 }
 
+TEST_CASE("of a large scene naive tracing answers some of the rays, and these right") {
+    int builds = 0;
+    const std::vector<Structure> some = counted_structures(builds);
+    const auto rows =
+        compare_on(make_subject("soup", "soup:50000", 1), some, two_blocks(), small_options());
+    const ComparedRow &naive = *find(rows, "naive"), &fast = *find(rows, "fast");
+    for (const RayKind kind : ray_kinds) {
+        CHECK(naive[kind].rays == 16);  // a million tests are 20 of 48; every third one
+        CHECK(fast[kind].rays == 48);
+    }
+    CHECK(naive.wrong() == 0);
+    CHECK(fast.wrong() == 0);
+}
+
 TEST_CASE("a structure that lies is found out, and one that throws gives up alone") {
     int builds = 0;
     std::vector<Structure> some = counted_structures(builds);
@@ -166,23 +182,42 @@ TEST_CASE("times are there where they are asked for, the lazy tree's nodes apart
     CHECK(lazy.made_later.back().rays > double(lazy.rays()));  // the few rays before are of them
 }
 
-TEST_CASE("what takes long to build is built once for all its turns") {
-    int builds = 0;
-    std::vector<Structure> some = counted_structures(builds);
-    for (Structure& structure : some) {
-        auto& build = structure.variants.front().build_from_triangles;
-        build = [build](std::span<const Triangle> triangles, const BuildOptions& options) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(160));
-            return build(triangles, options);
-        };
-    }
+TEST_CASE("what takes long to build is built once, and traced like what is built for each turn") {
     CompareEffort effort = two_blocks();
     effort.turns = effort.most_turns = 3;
-    const auto rows =
-        compare_on(make_subject("boxes", "boxes:12", 1), some, effort, small_options());
-    CHECK(builds == 1 + 3);  // the first one knows what is right
-    REQUIRE(rows.size() == 3);
-    for (const ComparedRow& row : rows) CHECK(row.mean_ns() > 0.0);
+    for (const int build_ms : {160, 0}) {
+        int builds = 0;
+        std::vector<const Ray*> traced;  // through fast, while it does not count
+        std::vector<Structure> some = counted_structures(builds);
+        for (Structure& structure : some) {
+            auto& build = structure.variants.front().build_from_triangles;
+            build = [build, build_ms, &traced, is_fast = structure.name == "fast"](
+                        std::span<const Triangle> triangles, const BuildOptions& options) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(build_ms));
+                BuiltStructure built = build(triangles, options);
+                if (!is_fast) return built;
+                built.trace = [trace = built.trace, &traced](const Batch& batch) {
+                    traced.push_back(batch.rays.data());
+                    trace(batch);
+                };
+                return built;
+            };
+        }
+        const auto rows =
+            compare_on(make_subject("boxes", "boxes:12", 1), some, effort, small_options());
+        CAPTURE(build_ms);
+        CHECK(builds == 1 + 3 * (build_ms > 0 ? 1 : 3));  // the first one knows what is right
+        REQUIRE(rows.size() == 3);
+        for (const ComparedRow& row : rows) CHECK(row.mean_ns() > 0.0);
+        // The first turn counts, then times; the others warm up first.
+        REQUIRE(traced.size() == 4 + 2 * (3 + 4));
+        const std::span all = std::span<const Ray* const>(traced);
+        const std::span timed = all.first(4);
+        for (const std::size_t turn : {4u, 11u}) {
+            CHECK(std::ranges::equal(all.subspan(turn, 3), timed.first(3)));
+            CHECK(std::ranges::equal(all.subspan(turn + 3, 4), timed));
+        }
+    }
 }
 
 TEST_CASE("a run that is taken up measures nothing twice") {

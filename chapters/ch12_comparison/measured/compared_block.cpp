@@ -25,13 +25,16 @@ namespace {
 /// Up to so many triangles naive tracing tells what is right.
 constexpr std::size_t most_naive = 10'000;
 /// Ray-triangle tests in which naive tracing of one kind of rays is timed.
-constexpr std::size_t naive_tests = 5'000'000;
-/// A structure has more turns than it must until they have taken so long.
-constexpr double enough_ms = 200.0;
-/// A slow one has fewer where they would take longer.
-constexpr double patience_ms = 1000.0;
+constexpr std::size_t naive_tests = 1'000'000;
+/// A structure has more turns than it must until its rays have taken so long in them.
+constexpr double enough_ms = 60.0;
+/// One whose rays are slow has fewer where they would take longer.
+constexpr double patience_ms = 300.0;
 /// Once its builds have taken so long it stays, and its rays are all that is timed again.
-constexpr double enough_builds_ms = 150.0;
+constexpr double enough_builds_ms = 60.0;
+/// A quick one, whose build decides what few rays cost, is built so often at least.
+constexpr int least_quick_builds = 3;
+constexpr double quick_build_ns_per_triangle = 800.0;
 
 /// Processor time of this thread, in ms: one thread traces, and what else runs on the machine does
 /// not count.
@@ -178,12 +181,13 @@ class Candidate {
     void take_turn() {
         if (!wants_turn()) return;
         try {
-            Stopwatch whole;
+            if (!built_) build();
+            Stopwatch stopwatch;
             turn();
-            turn_ms_ = whole.lap().count();
+            turn_ms_ = stopwatch.lap().count();
             turns_ms_ += turn_ms_;
             ++turns_;
-            if (builds_ms_ < enough_builds_ms || !wants_turn()) built_.reset();
+            if (wants_build() || !wants_turn()) built_.reset();
         } catch (const std::bad_alloc&) {
             give_up("out of memory");
         } catch (const std::exception& error) {
@@ -212,6 +216,12 @@ class Candidate {
                (turns_ < effort_.turns && turns_ms_ + turn_ms_ < patience_ms);
     }
 
+    bool wants_build() const {
+        const bool is_quick = builds_ms_ * 1e6 < quick_build_ns_per_triangle * double(builds_) *
+                                                     double(subject_.triangles.size());
+        return builds_ms_ < enough_builds_ms || (is_quick && builds_ < least_quick_builds);
+    }
+
     void build() {
         const std::size_t references = 1'000'000 + 40 * subject_.triangles.size();
         const BuildOptions build{
@@ -224,30 +234,38 @@ class Candidate {
         built_ = structure_.is_peer ? variant.build_from_triangles(geometry.triangles, build)
                                     : variant.build(geometry, build);
         const double build_ms = stopwatch.lap().count();
-        builds_ms_ += build_ms;
-        if (effort_.turns == 0) return;
-        build_ms_.push_back(build_ms);
-        if (is_lazy()) make_nodes(*built_);
+        if (effort_.turns > 0) {
+            build_ms_.push_back(build_ms);
+            if (is_lazy()) make_nodes(*built_);
+        }
+        builds_ms_ += build_ms + stopwatch.lap().count();
+        ++builds_;
     }
 
     void turn() {
-        if (!built_) build();
         if (turns_ == 0)
             count(*built_);
         else
-            trace(*built_, questions().part(0, 8));  // to warm up
+            warm_up(*built_);
         if (effort_.turns == 0) return;
-        for (std::size_t kind = 0; kind < ray_kinds.size(); ++kind)
-            time(*built_, ray_kinds[kind], questions().rays[kind]);
+        for (const RayKind kind : ray_kinds) time(*built_, kind);
     }
 
-    void trace(const BuiltStructure& built, const Questions& part) {
-        for (std::size_t kind = 0; kind < ray_kinds.size(); ++kind)
-            built.trace({part.rays[kind], std::span(hits_.data(), part.rays[kind].size()),
-                         query_of(ray_kinds[kind]), 1});
+    /// Traces all rays once before they are timed. Of a tree that was just built a part lies in the
+    /// caches, one that stayed finds them filled by others: only warm are the two measured alike.
+    void warm_up(const BuiltStructure& built) {
+        for (const RayKind kind : ray_kinds)
+            if (kind != RayKind::any)  // these go where diffuse ones go, just before them
+                trace(built, kind, questions());
     }
 
-    /// The first pass, which warms up and is not timed.
+    void trace(const BuiltStructure& built, RayKind kind, const Questions& part) {
+        const std::vector<Ray>& rays = part.rays[static_cast<std::size_t>(kind)];
+        if (!rays.empty())
+            built.trace({rays, std::span(hits_.data(), rays.size()), query_of(kind), 1});
+    }
+
+    /// The first pass over all rays, which warms up, too, and is not timed.
     void count(const BuiltStructure& built) {
         for (std::size_t i = 0; i < ray_kinds.size(); ++i) {
             const std::vector<Ray>& rays = questions().rays[i];
@@ -273,12 +291,13 @@ class Candidate {
         row_.sah_cost = rounded(known(shape.sah_cost));
     }
 
-    void time(const BuiltStructure& built, RayKind kind, std::span<const Ray> rays) {
-        if (rays.empty()) return;
+    void time(const BuiltStructure& built, RayKind kind) {
+        const auto i = static_cast<std::size_t>(kind);
+        const auto rays = double(questions().rays[i].size());
+        if (rays == 0.0) return;
         const double start = thread_ms();
-        built.trace({rays, std::span(hits_.data(), rays.size()), query_of(kind), 1});
-        trace_ns_[static_cast<std::size_t>(kind)].push_back(1e6 * (thread_ms() - start) /
-                                                            double(rays.size()));
+        trace(built, kind, questions());
+        trace_ns_[i].push_back(1e6 * (thread_ms() - start) / rays);
     }
 
     /// Traces what a tree has never seen, which makes its nodes: one ray, then one in a hundred,
@@ -288,7 +307,7 @@ class Candidate {
         double ms = 0.0;
         const auto make = [&](const Questions& part) {
             const double start = thread_ms();
-            trace(built, part);
+            for (const RayKind kind : ray_kinds) trace(built, kind, part);
             ms += thread_ms() - start;
             traced += part.count();
             cold_ms_[traced].push_back(ms);
@@ -310,8 +329,9 @@ class Candidate {
     std::optional<Questions> few_ = {};  ///< where all are too many
     std::vector<HitRecord> hits_;
     std::optional<BuiltStructure> built_ = {};  ///< from turn to turn, where its build is slow
-    int turns_ = 0;
-    double turn_ms_ = 0.0, turns_ms_ = 0.0, builds_ms_ = 0.0;  ///< the last one; all
+    int turns_ = 0, builds_ = 0;
+    double turn_ms_ = 0.0, turns_ms_ = 0.0;  ///< of the last one's rays, of all rays
+    double builds_ms_ = 0.0;
     std::vector<double> build_ms_;
     std::array<std::vector<double>, ray_kinds.size()> trace_ns_;
     std::map<std::size_t, std::vector<double>> cold_ms_;  ///< by the rays traced until then

@@ -54,8 +54,8 @@ ComparedSubject make_subject(const std::string& scene, const std::string& spec, 
 /// How much is measured: for tests, for a look, for the book.
 struct CompareEffort {
     int width = 64, height = 48;            ///< a ray of each kind for each pixel
-    int turns = 7;                          ///< of what is not slow; 0: counts alone
-    int most_turns = 15;                    ///< of what is quick
+    int turns = 5;                          ///< of what is not slow; 0: counts alone
+    int most_turns = 7;                     ///< of what is quick
     std::uint64_t most_placed = 3'000'000;  ///< by a BSP tree's builder (BuildOptions)
     /// Scene and spec, small ones first; of files those that are there.
     std::vector<std::pair<std::string, std::string>> blocks = {};
