@@ -219,20 +219,20 @@ Table octrees_table(const Comparison& comparison) {
 Table features_table(const Comparison& comparison) {
     const std::vector<Block> large = of_the_large(comparison);
     struct Feature {
-        const char *structure, *split_by, *children;
+        const char *structure, *split_by, *children, *overlap;
     };
     constexpr Feature features[] = {
-        {"bvh-binned", "objects", "2"},
-        {"fast", "objects", "8"},
-        {"octree", "space", "8"},
-        {"octree-loose", "space, cells twice as wide", "8"},
-        {"octree-linear", "space, objects by code", "up to 8"},
-        {"kd-sah", "space", "2"},
-        {"bvh-spatial", "objects or space", "2"},
+        {"bvh-binned", "objects", "2", "boxes do"},
+        {"fast", "objects", "8", "boxes do"},
+        {"octree", "space", "8", "no"},
+        {"octree-loose", "space, cells twice as wide", "8", "cells do"},
+        {"octree-linear", "space, objects by code", "up to 8", "boxes do"},
+        {"kd-sah", "space", "2", "no"},
+        {"bvh-spatial", "objects or space", "2", "boxes do, less"},
     };
-    Table table({"structure", "split by", "children", "references a triangle", "nodes a triangle",
-                 "depth over log2 n", "bytes a triangle"});
-    for (const auto& [name, split_by, children] : features) {
+    Table table({"structure", "split by", "children", "overlap", "references a triangle",
+                 "nodes a triangle", "depth over log2 n", "bytes a triangle"});
+    for (const auto& [name, split_by, children, overlap] : features) {
         const auto a_triangle = [&](const auto& value, int digits) {
             return number(mean_over(large, name,
                                     [&](const ComparedRow& row) {
@@ -240,7 +240,7 @@ Table features_table(const Comparison& comparison) {
                                     }),
                           digits);
         };
-        table.row({name, split_by, children,
+        table.row({name, split_by, children, overlap,
                    a_triangle([](const ComparedRow& row) { return row.references; }, 2),
                    a_triangle([](const ComparedRow& row) { return row.nodes; }, 2),
                    number(mean_over(large, name,
