@@ -87,7 +87,7 @@ class BasicCompressedBvh {
         static_assert(sizeof(Ray) == 8 * sizeof(float) && sizeof(Point3) == 3 * sizeof(float));
         return {.nodes = reinterpret_cast<const char*>(tree_.nodes.data()),
                 .blocks = reinterpret_cast<const char*>(tree_.triangles.data()),
-                .root = tree_.root->word,
+                .root = tree_.root.word,
                 .stack_size = static_cast<std::uint32_t>(tree_.stack_size()),
                 .largest = largest_,
                 .exact = exact_lane,

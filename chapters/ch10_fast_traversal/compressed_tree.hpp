@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -43,13 +42,13 @@ struct CompressedTree {
     std::vector<CompressedNode, CacheLineAllocator<CompressedNode>> nodes;
     std::vector<IndexedTriangle, CacheLineAllocator<IndexedTriangle>> triangles;
     std::vector<Point3> corners;  ///< in the order of their first use
-    std::optional<WideChild> root;
+    WideChild root;               ///< where there are triangles
     Aabb box;
     unsigned depth = 0;
     std::size_t leaves = 0;
     double cost = 0.0;  ///< of the tree that it was made from
 
-    bool empty() const { return !root; }
+    bool empty() const { return triangles.empty(); }
     std::size_t stack_size() const { return std::size_t(depth) * 7 + 8; }
     std::size_t bytes() const {
         return nodes.size() * sizeof(CompressedNode) + triangles.size() * sizeof(IndexedTriangle) +
@@ -104,7 +103,7 @@ class TreeCompressor {
         if (wide_.empty()) return {};
         tree_.nodes.reserve(wide_.nodes.size());
         tree_.triangles.reserve(wide_.references);
-        tree_.root = moved(*wide_.root);
+        tree_.root = moved(wide_.root);
         for (const WideNode<8>& node : wide_.nodes) {
             CompressedNode small = compressed(node);
             for (std::size_t i = 0; i < small.count; ++i)

@@ -73,7 +73,7 @@ class WideBvh {
     KernelTree kernel_tree() const {
         return {.nodes = reinterpret_cast<const char*>(tree_.nodes.data()),
                 .blocks = reinterpret_cast<const char*>(tree_.blocks.data()),
-                .root = tree_.root->word,
+                .root = tree_.root.word,
                 .stack_size = static_cast<std::uint32_t>(tree_.stack_size()),
                 .largest = largest_,
                 .exact = exact_lane,

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace space {
@@ -22,16 +21,18 @@ struct WideTree {
 
     std::vector<WideNode<N>, CacheLineAllocator<WideNode<N>>> nodes;
     std::vector<TriangleBlock, CacheLineAllocator<TriangleBlock>> blocks;
-    std::optional<WideChild> root;  ///< none of an empty tree
-    Aabb box;                       ///< around all
-    unsigned depth = 0;             ///< edges from the root to the deepest leaf
+    WideChild root;      ///< where there are triangles
+    Aabb box;            ///< around all
+    unsigned depth = 0;  ///< edges from the root to the deepest leaf
     std::size_t leaves = 0;
     std::size_t references = 0;  ///< triangles in all blocks
     double cost = 0.0;           ///< expected for a ray that meets the box, as the collapse counts
 
-    bool empty() const { return !root; }
+    /// Without triangles, as a tree is that was moved elsewhere.
+    bool empty() const { return blocks.empty(); }
     /// What a ray's stack must hold: all children but one of each node on the way down.
     std::size_t stack_size() const { return std::size_t(depth) * (N - 1) + N; }
+    /// All that it has written; what is reserved beyond that takes no memory.
     std::size_t bytes() const {
         return nodes.size() * sizeof(WideNode<N>) + blocks.size() * sizeof(TriangleBlock);
     }

@@ -60,7 +60,7 @@ void walk_wide(const Tree& tree, const WalkRay& ray, Counts& counts, const Own& 
     std::array<Waiting, max_wide_depth*(N - 1) + N> waiting;
     std::size_t size = 0;
     Real limit = ray.limit();
-    Waiting in_hand{*tree.root, ray.span_in(tree.box, limit).enter};
+    Waiting in_hand{tree.root, ray.span_in(tree.box, limit).enter};
     for (;;) {
         if (!in_hand.child.is_leaf()) {
             const auto& node = tree.nodes[in_hand.child.index()];

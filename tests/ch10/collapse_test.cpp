@@ -101,7 +101,7 @@ double cost_of(const WideTree<N>& tree, const CollapseConfig& config) {
         WideChild child;
         Aabb box;
     };
-    std::vector<Waiting> waiting{{*tree.root, tree.box}};
+    std::vector<Waiting> waiting{{tree.root, tree.box}};
     double cost = 0.0;
     while (!waiting.empty()) {
         const auto [child, box] = waiting.back();
@@ -224,7 +224,7 @@ void check_crowd(std::uint32_t count) {
     const auto tree = collapsed<N>(binary, triangles);
     CAPTURE(N, count);
     REQUIRE(wide_faults(tree, triangles) == "");
-    REQUIRE(tree.root->is_leaf() == (count <= most));
+    REQUIRE(tree.root.is_leaf() == (count <= most));
     // As few levels as there can be, and boxes no larger than what is in them.
     unsigned levels = 0;
     for (std::size_t room = most; room < count; room *= N) ++levels;

@@ -127,7 +127,7 @@ TEST_CASE(
         const CompressedBvh<> bvh = CompressedBvh<>::build(triangles);
         std::vector<int> seen(triangles.size());
         CAPTURE(name);
-        checked_box(bvh.tree(), *bvh.tree().root, seen);
+        checked_box(bvh.tree(), bvh.tree().root, seen);
         CHECK(std::ranges::count(seen, 1) == std::ssize(triangles));
     }
 }

@@ -1,6 +1,11 @@
 #include "chapters/ch10_fast_traversal/fast_bvh.hpp"
 
+#include "common/scene.hpp"
+#include "tests/ch10/every_kernel.hpp"
 #include "tests/suite/accelerator_suite.hpp"
+
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -41,4 +46,17 @@ TEST_CASE("the suite: the default and the best tree") {
     check_accelerator<FastHighBvh<>>(
         "fast, high quality",
         [](std::span<const Triangle> all) { return FastHighBvh<>::build(all); }, some.fewer());
+}
+
+TEST_CASE("a structure that was moved elsewhere is empty, and none of its rays hits") {
+    const std::vector<Triangle> triangles = make_scene("icosphere", 1, true).mesh.triangles();
+    const Ray ray{.origin = {0.0f, 0.0f, 5.0f}, .direction = {0.01f, 0.02f, -1.0f}};
+    for_each_kernel(triangles, [&](auto bvh, const std::string&) {
+        const auto moved = std::move(bvh);
+        CHECK(bvh.tree().empty());
+        CHECK_FALSE(closest_hit(bvh, ray));
+        CHECK_FALSE(any_hit(bvh, ray));
+        CHECK(closest_hit(moved, ray));
+        CHECK(any_hit(moved, ray));
+    });
 }

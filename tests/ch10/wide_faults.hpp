@@ -67,7 +67,7 @@ std::string wide_faults(const WideTree<N>& tree, std::span<const Triangle> trian
         return std::ranges::any_of(triangles, is_whole) ? "an empty tree over triangles" : "";
     std::vector<unsigned> node_used(tree.nodes.size()), block_used(tree.blocks.size());
     Names names(triangles.size());
-    std::vector<Waiting> waiting{{*tree.root, tree.box, 0}};
+    std::vector<Waiting> waiting{{tree.root, tree.box, 0}};
     unsigned depth = 0;
     std::size_t leaves = 0, references = 0;
     while (!waiting.empty()) {
@@ -144,7 +144,7 @@ inline std::string wide_faults(const CompressedTree& tree, std::span<const Trian
         return std::ranges::any_of(triangles, is_whole) ? "an empty tree over triangles" : "";
     std::vector<unsigned> node_used(tree.nodes.size());
     Names names(triangles.size());
-    std::vector<Waiting> waiting{{*tree.root, 0}};
+    std::vector<Waiting> waiting{{tree.root, 0}};
     unsigned depth = 0;
     std::size_t leaves = 0, references = 0;
     std::string fault;

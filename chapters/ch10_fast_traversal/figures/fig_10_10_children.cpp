@@ -32,13 +32,13 @@ struct RootWatcher {
     std::array<std::size_t, 8> order = {};  ///< from 1 on, of those met
 
     void mark(WideChild child, Fate fate) {
-        const WideNode<8>& root = tree.nodes[tree.root->index()];
+        const WideNode<8>& root = tree.nodes[tree.root.index()];
         for (std::size_t i = 0; i < 8; ++i)
             if (root.is_used(i) && root.children[i] == child) fates[i] = fate;
     }
     void observe(const WideVisit<8>& event) {
         mark(WideChild::node(event.node), Fate::visited);
-        if (event.node == tree.root->index())
+        if (event.node == tree.root.index())
             for (std::size_t i = 0; i < event.size; ++i) order[event.met[i].place] = i + 1;
     }
     void observe(const WideLeafVisit& event) {
@@ -65,7 +65,7 @@ Ink ink_of(Fate fate) {
 /// The node's lanes, a row for each: the part of the ray between all near and all far planes, the
 /// mask's bit, and the order.
 void draw_lanes(Svg& svg, const RootWatcher& watcher, const BvhRay<3>& prepared, double end) {
-    const WideNode<8>& root = watcher.tree.nodes[watcher.tree.root->index()];
+    const WideNode<8>& root = watcher.tree.nodes[watcher.tree.root.index()];
     constexpr double left = 400, width = 200, top = 52, row = 36;
     const auto on_axis = [&](double t) { return left + width * std::clamp(t / end, 0.0, 1.0); };
     svg.text(at(382, 26), "lane", {.ink = Ink::quiet, .size = 17});
@@ -91,7 +91,7 @@ void draw_lanes(Svg& svg, const RootWatcher& watcher, const BvhRay<3>& prepared,
 }
 
 void draw_scene(Svg& svg, const RootWatcher& watcher, const PlaneView& view, double end) {
-    const WideNode<8>& root = watcher.tree.nodes[watcher.tree.root->index()];
+    const WideNode<8>& root = watcher.tree.nodes[watcher.tree.root.index()];
     svg.rect(view({0, heinonen_size}), at(children_side, children_side), {.stroke = Ink::faint});
     for (std::size_t i = 0; i < 8; ++i) {
         if (!root.is_used(i)) continue;

@@ -58,7 +58,7 @@ Svg fig_10_12(const Options&) {
     constexpr std::size_t child = 2;
     const auto walls = walls_on<3>(clustered_segments(1584, 8, 2));
     const WideTree<8> tree = collapsed<8>(walls.binary, walls.polygons, {.max_leaf = 4});
-    const WideNode<8>& node = tree.nodes[tree.root->index()];
+    const WideNode<8>& node = tree.nodes[tree.root.index()];
     const CompressedNode small = compressed(node);
     const Aabb2 exact = from_above(node.box(child)), back = from_above(small.box(child));
     const Point2 middle = exact.centroid();

@@ -33,7 +33,7 @@ class DrawnWideTree {
   public:
     DrawnWideTree(const Walls<3>& walls, const WideTree<4>& wide)
         : tree{.size = heinonen_size, .segments = walls.named, .nodes = {}} {
-        add(walls, wide, *wide.root, wide.box);
+        add(walls, wide, wide.root, wide.box);
     }
     std::size_t place_of(WideChild child) const {
         return std::ranges::find(places_, child, &DrawnPlace::child)->node;
@@ -93,7 +93,7 @@ class WideScript {
           ray_(ray),
           prepared_({{ray.origin.x, ray.origin.y, 1.0f}, {ray.direction.x, ray.direction.y, 0.0f}},
                     BoxMargins::none) {
-        waiting_.push_back(visit_of(*wide.root, wide.box));
+        waiting_.push_back(visit_of(wide.root, wide.box));
         steps.push_back({.tells = fmt::format("A ray starts at the dot. It is in the root's box "
                                               "for {}.",
                                               written(waiting_.back())),

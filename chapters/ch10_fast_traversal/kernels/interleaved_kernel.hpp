@@ -24,7 +24,7 @@ struct Walk {
 
 /// The nearest of what waits, if it begins before the limit.
 SPACE_INLINE void take_waiting(Walk& walk) {
-    const uint32_t limit_bits = __builtin_bit_cast(uint32_t, box_limit(walk.ends));
+    const uint32_t limit_bits = __builtin_bit_cast(uint32_t, walk.ends);
     do {
         if (walk.top == walk.bottom) {
             walk.is_over = true;
@@ -64,7 +64,7 @@ SPACE_INLINE void step(const KernelTree& tree, Walk& walk) {
         const uint32_t* children;
         Float8 enter;
         const unsigned met = WideLayout<8>::met(tree, walk.child, node_ray_of<8>(walk.ray),
-                                                all<8>(box_limit(walk.ends)), enter, children);
+                                                all<8>(walk.ends), enter, children);
         if (met != 0)
             walk.child = nearest_of<8>(children, met, enter, walk.top);
         else

@@ -17,7 +17,7 @@ uint32_t probe_nodes(const KernelTree& tree, const float* floats, uint32_t count
     KernelRay ray;
     if (!prepared(tree, floats, ray)) return 0;
     const NodeRay<8> node_ray = node_ray_of<8>(ray);
-    const Float8 limit = all<8>(box_limit(ray.limit));
+    const Float8 limit = all<8>(ray.limit);
     uint64_t stack[8];
     uint32_t node = 0, sum = 0;
     for (size_t i = 0; i < steps; ++i) {

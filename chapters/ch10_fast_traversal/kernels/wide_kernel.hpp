@@ -192,11 +192,6 @@ SPACE_INLINE uint32_t nearest_of(const uint32_t* children, unsigned met, Floats<
 }
 // [wide_order]
 
-/// The float that a limit is compared as with where boxes are entered: 6 u24 larger at least.
-SPACE_INLINE float box_limit(float limit) {
-    return limit * (1.0f + 0x1p-21f);
-}
-
 // [leaf_closest]
 /// Puts the lanes that the filter has left to the exact test, and keeps the nearest hit; of equal t
 /// that of the smaller index. @return the t beyond which nothing matters any more: a hit half a
@@ -275,7 +270,7 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
     const FetchWaiting<Layout> waits{tree};
     float ends = ray.limit;
-    Floats<N> limit = all<N>(box_limit(ray.limit));
+    Floats<N> limit = all<N>(ray.limit);
     uint64_t* const bottom =
         static_cast<uint64_t*>(__builtin_alloca(tree.stack_size * sizeof(uint64_t)));
     uint64_t* top = bottom;
@@ -297,7 +292,7 @@ SPACE_INLINE KernelAnswer closest_hit(const KernelTree& tree, const float* float
                 const unsigned lanes = filter_leaf<false>(leaf.block, ray, ends).may_hit;
                 if (lanes == 0) continue;
                 ends = take_hits(tree, ray, leaf.block, lanes, best);
-                limit = all<N>(box_limit(ends));
+                limit = all<N>(ends);
             }
         }
         const uint32_t limit_bits = __builtin_bit_cast(uint32_t, limit[0]);
@@ -320,7 +315,7 @@ SPACE_INLINE KernelAnswer any_hit(const KernelTree& tree, const float* floats) {
     if (!prepared(tree, floats, ray)) return kernel_refuses;
     const NodeRay<N> node_ray = node_ray_of<N>(ray);
     const FetchWaiting<Layout> waits{tree};
-    const Floats<N> limit = all<N>(box_limit(ray.limit));
+    const Floats<N> limit = all<N>(ray.limit);
     uint32_t* const bottom =
         static_cast<uint32_t*>(__builtin_alloca(tree.stack_size * sizeof(uint32_t)));
     uint32_t* top = bottom;

@@ -52,6 +52,7 @@ struct WorkPoint {
     double mispredicted = 0.0, cycles = 0.0, instructions = 0.0;  ///< of a ray; 0: no counters here
     double ns = 0.0;                                              ///< of a ray, measured
     double compute_ns = 0.0, latency_ns = 0.0, bandwidth_ns = 0.0;  ///< bounds of a ray
+    double nodes_ns = 0.0, blocks_ns = 0.0;  ///< what nodes and blocks have of latency_ns
 
     /// No ray of this tree by one thread is quicker, whatever its kernel does.
     double bound_ns() const { return compute_ns > bandwidth_ns ? compute_ns : bandwidth_ns; }
@@ -155,6 +156,13 @@ struct ChoicePoint {
     std::array<double, 3> ns = {};  ///< of a ray, by kind
 };
 
+/// What was tried where a goal is missed, on one scene: how many times as fast it is as what it was
+/// tried on.
+struct CurePoint {
+    std::string goal, cure, scene;
+    double gain = 0.0;
+};
+
 /// All of it.
 struct FastMeasurements {
     std::vector<MemoryPoint> memory;  ///< none where nothing is timed
@@ -169,6 +177,7 @@ struct FastMeasurements {
     std::vector<AimedPoint> aimed;
     std::vector<KernelPoint> kernels;
     std::vector<ChoicePoint> widths, leaf_sizes, high;
+    std::vector<CurePoint> cures;  ///< none where nothing is timed
 };
 
 }  // namespace space::ch10

@@ -7,6 +7,9 @@
 #include "chapters/ch10_fast_traversal/measured/traced_scene.hpp"
 #include "chapters/ch10_fast_traversal/ray_bound.hpp"
 #include "common/program/options.hpp"
+#include "common/program/report.hpp"
+
+#include <vector>
 
 namespace space::ch10 {
 
@@ -24,8 +27,13 @@ void measure_peers(const TracedScene& scene, const Options& options, FastMeasure
 /// Widths, leaf sizes, better binary trees.
 void measure_choices(const TracedScene& scene, const FastEffort& effort,
                      FastMeasurements& measured);
+/// What was tried to build faster, and to share rays between two threads.
+void measure_cures(const TracedScene& scene, const FastEffort& effort, FastMeasurements& measured);
 /// Ways to trace several rays at once.
 void measure_modes(const TracedScene& scene, const FastEffort& effort, FastMeasurements& measured);
+/// Where a ray's time goes; what was tried where a goal is missed, from all that was timed.
+Table profile_table(const std::vector<WorkPoint>& work);
+Table cures_table(const FastMeasurements& measured);
 /// One scene as it grows.
 void measure_sizes(const Options& options, FastMeasurements& measured);
 /// Rays at edges and vertices; kernels beside the naive loop.

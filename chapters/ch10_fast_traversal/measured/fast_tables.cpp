@@ -1,5 +1,6 @@
 #include "chapters/ch10_fast_traversal/measured/fast.hpp"
 #include "chapters/ch10_fast_traversal/measured/fast_parts.hpp"
+#include "chapters/ch10_fast_traversal/measured/ratios.hpp"
 #include "common/measure.hpp"
 #include "common/program/report.hpp"
 
@@ -221,18 +222,6 @@ Table exact_table(const std::vector<KernelPoint>& kernels) {
 
 // --- goals ---
 
-/// The least, the median and the largest of what is there.
-struct Ratios {
-    std::vector<double> all;
-
-    void add(double over, double under) {
-        if (over > 0.0 && under > 0.0) all.push_back(over / under);
-    }
-    double least() const { return all.empty() ? 0.0 : *std::ranges::min_element(all); }
-    double middle() const { return all.empty() ? 0.0 : median(all); }
-    double most() const { return all.empty() ? 0.0 : *std::ranges::max_element(all); }
-};
-
 /// What the chapter wants, and what is there.
 struct Goal {
     std::string name, number;  ///< number: as pages quote the one that counts
@@ -358,6 +347,7 @@ std::vector<NamedTable> all_tables(const FastMeasurements& m, bool timed) {
     time("costs", "A node of eight boxes, a block of four triangles", costs_table(m.steps));
     add("work", "What a ray does, and what a model of caches says of it", work_table(m.work));
     time("bounds", "What a ray must take, and what it takes", bounds_table(m.work));
+    time("profile", "Where the time of a ray goes", profile_table(m.work));
     add("ladder", "The ladder", ladder_table(m.ladder, timed));
     time("peers", "Beside Embree, one thread, one ray at a time", peers_table(m.peers));
     add("answers", "The same rays: answers that are not the binary tree's", answers_table(m.peers));
@@ -371,6 +361,7 @@ std::vector<NamedTable> all_tables(const FastMeasurements& m, bool timed) {
     add("aimed", "Rays at edges and vertices", aimed_table(m.aimed, timed));
     add("exact", "Kernels beside the naive loop", exact_table(m.kernels));
     time("goals", "What was wanted", goals_table(goals_of(m)));
+    time("cures", "What was tried where a goal is missed", cures_table(m));
     return all;
 }
 

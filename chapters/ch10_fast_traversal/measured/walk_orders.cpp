@@ -37,7 +37,7 @@ float octant_key(const Aabb& box, const Ray& ray) {
 void walk_in_order(const WideTree<8>& tree, const Ray& ray, ChildOrder order, OrderPoint& point) {
     const BvhRay<3> prepared(ray);
     float limit = prepared.limit();
-    std::vector<WaitingBox> waiting{{*tree.root, 0.0f, 0.0f}};
+    std::vector<WaitingBox> waiting{{tree.root, 0.0f, 0.0f}};
     while (!waiting.empty()) {
         const WaitingBox in_hand = waiting.back();
         waiting.pop_back();

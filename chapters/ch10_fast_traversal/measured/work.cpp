@@ -130,6 +130,8 @@ void add_times(WorkPoint& point, const MachineCosts& costs, double ns) {
         work.misses[i] = point.per_ray(point.misses[i]);
     constexpr double lines_of_a_node_at_once = 4.0;
     point.ns = ns;
+    point.nodes_ns = work.nodes * costs.node_latency;
+    point.blocks_ns = work.blocks * costs.block_latency;
     point.compute_ns = compute_bound_ns(work, costs);
     point.bandwidth_ns = fetch_bound_ns(work, costs);
     point.latency_ns =
