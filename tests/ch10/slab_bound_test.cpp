@@ -95,6 +95,26 @@ TEST_CASE("a near plane is never met later than exactly, a far one never earlier
     }
 }
 
+// A flat wall is its box's near plane: what ends at the wall must still enter the box.
+TEST_CASE("a near plane is met before the float after its t, also where a plain one is not") {
+    Pcg32 random(4);
+    int late = 0;
+    for (int i = 0; i < sized(400'000, 20'000); ++i) {
+        const SlabCase c = some_case(random);
+        const Quadruple exact = (Quadruple{c.p} - c.o) / c.d;
+        if (exact < 0) continue;
+        const KernelRay ray = prepared(c);
+        const float limit = std::nextafter(float(exact), infinity), near = near_t(ray, 0, c.p);
+        if (!(near <= limit)) {
+            CAPTURE(i, c.p, c.o, c.d, near, limit);
+            FAIL("a wall is lost");
+        }
+        late += (c.p - c.o) * (1.0f / c.d) > limit;
+    }
+    fmt::print("  {} plain planes are met too late\n", late);
+    CHECK(late > 100);
+}
+
 TEST_CASE(
     "of what reciprocals are shortened and lengthened by, most is used, and no more than all") {
     Pcg32 random(2);
