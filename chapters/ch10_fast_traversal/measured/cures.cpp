@@ -23,9 +23,13 @@ double built_in_ms(const Build& build) {
     return process_ms() - before;
 }
 
+using Config = FastBvh<>::Config;
+const Config larger_leaves{.binary = {.max_leaf_size = 4}},
+    greedily{.collapse = {.way = CollapseConfig::Way::greedy}},
+    only_halves{.binary = {.max_depth = 0}};
+
 /// Ways to be quicker at the default tree, and the parts that it consists of.
 void cure_builds(const TracedScene& scene, int rounds, std::vector<CurePoint>& cures) {
-    using Config = FastBvh<>::Config;
     const auto with = [&](const Config& config) {
         return [&scene, config] { return FastBvh<>::build(scene.triangles, config); };
     };
@@ -39,9 +43,9 @@ void cure_builds(const TracedScene& scene, int rounds, std::vector<CurePoint>& c
         const auto time = [&](const auto& build) { times[i++].push_back(built_in_ms(build)); };
         time(with({}));
         time(bins);
-        time(with({.binary = {.max_leaf_size = 4}}));
-        time(with({.collapse = {.way = CollapseConfig::Way::greedy}}));
-        time(with({.binary = {.max_depth = 0}}));
+        time(with(larger_leaves));
+        time(with(greedily));
+        time(with(only_halves));
         time(tree);
         time(wide);
     }
@@ -56,6 +60,25 @@ void cure_builds(const TracedScene& scene, int rounds, std::vector<CurePoint>& c
     add("no cuts sought at all, only halves", ms[0] / ms[4]);
     add("the binary tree alone", ms[0] / ms[5]);
     add("the collapse and the blocks alone", ms[0] / ms[6]);
+}
+
+/// What rays say of trees that were built more quickly.
+void ask_their_rays(const TracedScene& scene, int rounds, std::vector<CurePoint>& cures) {
+    std::vector<Tracer> trees;
+    for (const Config& config : {Config{}, larger_leaves, greedily, only_halves})
+        trees.push_back(our_tracer("", FastBvh<>::build(scene.triangles, config)));
+    for (const RayKind kind : {camera_kind, shadow_kind, diffuse_kind}) {
+        const std::vector<double> ns = ray_times(trees, scene, kind, rounds);
+        const auto add = [&](const char* cure, double other_ns) {
+            cures.push_back({.goal = "build",
+                             .cure = cure,
+                             .scene = scene.name,
+                             .gain = other_ns > 0.0 ? ns[0] / other_ns : 0.0});
+        };
+        add("rays through leaves of up to four", ns[1]);
+        add("rays through a greedy collapse", ns[2]);
+        add("rays through halves", ns[3]);
+    }
 }
 
 /// Ways for two threads to share the rays.
@@ -100,6 +123,7 @@ void cure_two_threads(const TracedScene& scene, int rounds, std::vector<CurePoin
 void measure_cures(const TracedScene& scene, const FastEffort& effort, FastMeasurements& measured) {
     if (effort.rounds == 0) return;
     cure_builds(scene, scene.triangles.size() < 300'000 ? effort.rounds : 1, measured.cures);
+    ask_their_rays(scene, effort.rounds, measured.cures);
     cure_two_threads(scene, effort.rounds, measured.cures);
 }
 
