@@ -34,8 +34,8 @@ std::vector<NamedMethod> condition_methods();           ///< the queue by each c
 MeasuredCosts measure_costs(const RecordedBuild& build, int rounds);
 SchedulingCosts scheduling_costs(const MeasuredCosts& costs, bool has_bandwidth);
 
-/// The published methods and ours by 1 and 2 threads, measured and simulated; once what is the same:
-/// all published ones by 1 thread, and the first two by 2.
+/// The published methods and ours by 1 and 2 threads, measured and simulated; once
+/// what is the same: all published ones by 1 thread, and the first two by 2.
 std::vector<ValidationPoint> validate(const RecordedBuild& build, const SchedulingCosts& costs,
                                       int rounds);
 
