@@ -2,7 +2,6 @@
 #include "chapters/ch12_comparison/measured/child_overlap.hpp"
 
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
-#include "common/random_rays.hpp"
 #include "common/scene.hpp"
 #include "tests/catch.hpp"
 

@@ -7,7 +7,8 @@
 #include "common/observer.hpp"
 #include "common/program/report.hpp"
 
-#include <glm/glm.hpp>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <string>
 
