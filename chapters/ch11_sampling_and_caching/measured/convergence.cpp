@@ -242,7 +242,7 @@ Convergence measure_room(const std::string& name, int width, const ConvergenceSi
                     {.count = std::min(100'000u, sizes.photons.back()),
                      .indirect_k = 100,
                      .gather_rays = rays,
-                     .samples = sizes.samples});
+                     .samples = 2 * sizes.samples});  // or noise hides the bias
     for (const bool gradients : {false, true})
         for (const CacheSetting& cache : sizes.caches)
             if (gradients || cache.constant)
