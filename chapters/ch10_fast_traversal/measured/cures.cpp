@@ -122,8 +122,10 @@ void cure_two_threads(const TracedScene& scene, int rounds, std::vector<CurePoin
 
 void measure_cures(const TracedScene& scene, const FastEffort& effort, FastMeasurements& measured) {
     if (effort.rounds == 0) return;
-    cure_builds(scene, scene.triangles.size() < 300'000 ? effort.rounds : 1, measured.cures);
-    ask_their_rays(scene, effort.rounds, measured.cures);
+    if (scene.triangles.size() <= effort.most_high) {
+        cure_builds(scene, effort.rounds, measured.cures);
+        ask_their_rays(scene, effort.rounds, measured.cures);
+    }
     cure_two_threads(scene, effort.rounds, measured.cures);
 }
 
