@@ -29,12 +29,12 @@ constexpr std::size_t naive_tests = 1'000'000;
 /// A structure has more turns than it must until its rays have taken so long in them.
 constexpr double enough_ms = 60.0;
 /// One whose rays are slow has fewer where they would take longer.
-constexpr double patience_ms = 300.0;
+constexpr double patience_ms = 250.0;
 /// Once its builds have taken so long it stays, and its rays are all that is timed again.
 constexpr double enough_builds_ms = 60.0;
 /// A quick one, whose build decides what few rays cost, is built so often at least.
 constexpr int least_quick_builds = 3;
-constexpr double quick_build_ns_per_triangle = 800.0;
+constexpr double quick_build_ns_per_triangle = 700.0;
 
 /// Processor time of this thread, in ms: one thread traces, and what else runs on the machine does
 /// not count.
