@@ -73,7 +73,7 @@ Limits limits(Amount amount) {
                     .rounds = 1};
         default:
             return {.sizes = 7,
-                    .max_classified = 420'000'000,
+                    .max_classified = 300'000'000,
                     .max_fragments = 1'500'000,
                     .rays = 1'000,
                     .edge_rays = 500'000,

@@ -27,8 +27,8 @@ constexpr std::pair<Rule, Straddlers> rules[]{
     {Rule::sah, Straddlers::clip},    {Rule::sah, Straddlers::duplicate},
     {Rule::sah, Straddlers::keep},    {Rule::sah, Straddlers::split}};
 constexpr std::size_t grown_rules = 3;
-/// As a scene grows: a larger tree at the median takes up to half a minute.
-constexpr std::size_t most_at_median = 400'000;
+/// As a scene grows: larger trees at the median take up to half a minute each.
+constexpr std::size_t most_at_median = 150'000;
 
 /// Counts what a build looks at.
 struct BuildCounter : NoObserver {

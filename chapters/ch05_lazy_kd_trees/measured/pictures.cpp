@@ -40,7 +40,8 @@ double draw_ms(const Scene& scene, const Tree& tree, const RenderSettings& setti
 void time_views(std::span<ViewPoint> points, const std::vector<Triangle>& triangles,
                 const ViewedScene& viewed, RenderSettings settings, int rounds) {
     settings.threads = 1;
-    if (triangles.size() > 300'000) rounds = std::min(rounds, 2);  // seconds each
+    const int most = triangles.size() > 500'000 ? 1 : triangles.size() > 300'000 ? 2 : rounds;
+    rounds = std::min(rounds, most);  // seconds each
     std::vector<double> eager_build;
     std::vector<std::array<std::vector<double>, 3>> of_views(points.size());
     for (int round = 0; round < rounds; ++round) {

@@ -45,7 +45,7 @@ struct Timed {
     }
 
   private:
-    static constexpr double longest_again_ms = 300.0;
+    static constexpr double longest_again_ms = 100.0;
 };
 
 /// Traces all rays of a kind that has answers; those that are not the task's.
