@@ -188,6 +188,7 @@ Comparison decided_by_chance() {
                 kind.rays = 1;
                 kind.ns_per_ray = is_ours ? (is_quick ? 100.0 : 1000.0) : 1.0;
             }
+            if (row.structure == "other") row.made_later = {{1.0, 2.0}, {4.0, 3.0}};
             comparison.rows.push_back(row);
         }
     }
@@ -215,6 +216,11 @@ TEST_CASE("the advice is judged by scenes that it has not seen, and by our struc
     const AdviceModel model = read_advice(judged.model_csv);
     REQUIRE(model.structures.size() == 2);
     CHECK(model.structures[0].structure == "one");
+    SceneFeatures any;
+    any.count = 10.0;
+    CHECK(model.structures[0].cost(any).build_ns == Approx(1e6).epsilon(1e-3));
+    CHECK(model.structures[1].cost(any).build_ns ==
+          Approx(4e6).epsilon(1e-3));  // until it is ready
 }
 
 TEST_CASE("a way that knows each scene by heart is no good on kinds that it has not seen") {
