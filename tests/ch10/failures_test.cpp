@@ -7,6 +7,7 @@
 #include "chapters/ch07_bounding_volume_hierarchies/binned_builder.hpp"
 #include "chapters/ch10_fast_traversal/compressed_node.hpp"
 #include "chapters/ch10_fast_traversal/kernels/kernel_table.hpp"
+#include "chapters/ch10_fast_traversal/packets.hpp"
 #include "common/accelerator.hpp"
 #include "common/limit_error.hpp"
 #include "common/random.hpp"
@@ -311,6 +312,47 @@ TEST_CASE("V9: a hit half a place farther may have the same t and the smaller in
             rays.push_back({.origin = {0.5f * float(i), 0.25f, -0x1p26f}, .direction = {0, 0, 1}});
         CHECK(check_kernels(more, rays, config) > 100);
     }
+}
+
+namespace {
+
+/// Walls across x, each in a leaf of its own, and for each a ray that ends where it hits: where the
+/// near plane of the wall's box, computed plainly, comes after the float behind that.
+void add_walls(std::vector<Triangle>& walls, std::vector<Ray>& rays, std::size_t count) {
+    Pcg32 random(15);
+    while (rays.size() < count) {
+        const float p = random.uniform(1.0f, 2.0f);
+        const float o = random.uniform(-1.0f, 0.0f);
+        const float d = random.uniform(0.5f, 2.0f);
+        const float t = float((double{p} - double{o}) / double{d});
+        if ((p - o) * (1.0f / d) <= std::nextafter(t, infinity)) continue;
+        const float y = 10.0f * float(rays.size());
+        walls.push_back({{p, y - 4, -4}, {p, y + 4, -4}, {p, y, 4}});
+        rays.push_back({.origin = {o, y, -1}, .direction = {d, 1e-3f, 1e-3f}, .tmax = t});
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a ray that ends at a wall meets the wall's box, though a plain plane comes too late") {
+    std::vector<Triangle> walls;
+    std::vector<Ray> rays;
+    add_walls(walls, rays, 40);
+    const WideBvhConfig<BinnedBuilder> config{.binary = {.max_leaf_size = 1},
+                                              .collapse = {.max_leaf = 1}};
+    CHECK(check_kernels(walls, rays, config) == rays.size());
+    for_each_kernel_of<8, BinnedBuilder>(
+        walls,
+        [&](const auto& tree, const std::string&) {
+            for (const ManyQuery query : {ManyQuery::closest, ManyQuery::any}) {
+                std::size_t hits = 0;
+                trace_in_packets(
+                    tree, rays, 8, query,
+                    [&](std::size_t, const std::optional<Hit>& hit) { hits += hit.has_value(); });
+                CHECK(hits == rays.size());
+            }
+        },
+        config);
 }
 
 TEST_CASE("B1, B2: rays that lie in planes of boxes, zeros of either sign") {
