@@ -110,10 +110,12 @@ std::string nearest_so_many(std::size_t k) {
     return k == 1 ? "the nearest" : fmt::format("the {} nearest", word(k));
 }
 
-/// A circle, or what of it lies on the panel.
-void draw_circle(Svg& svg, const PlaneView& view, const Double2& middle, double radius) {
+/// A circle, or what of it lies over the tree's cells.
+void draw_circle(Svg& svg, const Panel& panel, const Double2& middle, double radius) {
+    const PlaneView& view = panel.view;
+    const Double2 low(panel.tree.bounds.min), high(panel.tree.bounds.max);
     const Style style{.stroke = Ink::vermillion, .dashed = true};
-    const Double2 room = glm::min(middle, Double2(size) - middle);
+    const Double2 room = glm::min(middle - low, high - middle);
     if (radius <= std::min(room.x, room.y))
         return svg.circle(view(middle), view.scale * radius, style);
     constexpr int parts = 360;
@@ -121,7 +123,7 @@ void draw_circle(Svg& svg, const PlaneView& view, const Double2& middle, double 
     for (int i = 0; i <= parts; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / parts;
         const Double2 p = middle + radius * Double2(std::cos(angle), std::sin(angle));
-        const bool inside = glm::clamp(p, Double2(0.0), Double2(size)) == p;
+        const bool inside = glm::clamp(p, low, high) == p;
         if (inside) arc.push_back(view(p));
         if (inside && i < parts) continue;
         if (arc.size() > 1) svg.polyline(arc, style);
@@ -136,7 +138,7 @@ double draw_nearest(Svg& svg, Panel& panel, const Searches& asked) {
     for (const Neighbour& neighbour : best) panel.watcher.found.insert(neighbour.index);
     panel.draw_cells(svg);
     const double radius = best.empty() ? 0.0 : std::sqrt(best.back().squared_distance);
-    draw_circle(svg, panel.view, Double2(asked.query), radius);
+    draw_circle(svg, panel, Double2(asked.query), radius);
     panel.draw_points(svg);
     svg.circle(panel.view(Double2(asked.query)), 5,
                {.stroke = Ink::paper, .fill = Ink::vermillion});
