@@ -20,6 +20,20 @@ DoxygenAwesomeParagraphLink.init();
 DoxygenAwesomeInteractiveToc.topOffset = 45;
 DoxygenAwesomeInteractiveToc.init();
 
+// Of an address like "#fig_07_17;ray=1,2" what can't be read, a % that begins no sign, is taken out: MathJax would stop at it.
+function mendAddress() {
+  const isRead = (text) => {
+    try {
+      decodeURIComponent(text);
+      return true;
+    } catch {
+      return false;
+    }
+  };
+  if (!isRead(location.hash)) history.replaceState(null, "", `#${location.hash.slice(1).split(";").filter(isRead).join(";")}`);
+}
+mendAddress();
+
 // Formulas: MathJax is in the site and is loaded where a page has any. They stand larger than what they are written with:
 // what is below them moves.
 let showFormulas;

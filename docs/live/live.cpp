@@ -80,9 +80,10 @@ std::string text(const Points& p) {
 }
 
 std::string text(const Picture& p) {
-    return fmt::format(R"({{"corner":{},"size":{},"width":{},"height":{},"rays":{}}})",
-                       pair_text(Double2(p.corner)), pair_text(Double2(p.size)), p.width, p.height,
-                       p.rays);
+    return fmt::format(
+        R"({{"corner":{},"size":{},"width":{},"height":{},"first_row":{},"rows":{},"rays":{}}})",
+        pair_text(Double2(p.corner)), pair_text(Double2(p.size)), p.width, p.height, p.first_row,
+        p.rgba.size() / (4 * std::size_t(p.width)), p.rays);
 }
 
 template <class Part>
@@ -112,6 +113,12 @@ std::optional<std::string_view> State::value(std::string_view name) const {
 
 double State::number(std::string_view name, double first, double least, double most) const {
     return number_of(value(name).value_or(""), first, least, most);
+}
+
+std::size_t State::whole(std::string_view name, std::size_t first, std::size_t least,
+                         std::size_t most) const {
+    return static_cast<std::size_t>(
+        std::lround(number(name, double(first), double(least), double(most))));
 }
 
 Double2 State::point(std::string_view name, const Double2& first, double least, double most) const {

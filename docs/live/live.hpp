@@ -24,6 +24,9 @@ class State {
     explicit State(std::string_view text);
 
     double number(std::string_view name, double first, double least, double most) const;
+    /// The nearest whole number.
+    std::size_t whole(std::string_view name, std::size_t first, std::size_t least,
+                      std::size_t most) const;
     /// Both coordinates between least and most.
     Double2 point(std::string_view name, const Double2& first, double least, double most) const;
     /// One of the names, by its place among them.
@@ -70,12 +73,14 @@ struct Picture {
     Point2 corner;
     Vector2 size;  ///< drawing units
     int width, height;
-    std::vector<std::uint8_t> rgba;  ///< sRGB, row by row from the top
-    double rays = 0;                 ///< as many were traced; the page tells how many a second
+    std::vector<std::uint8_t> rgba;  ///< sRGB, row by row; those of `first_row` and below
+    int first_row = 0;
+    double rays = 0;  ///< as many were traced; the page tells how many a second
 };
 
-/// The figure in a state. While it is moved the page says detail=low of a figure with a picture,
-/// which may be coarser then.
+/// The figure in a state. Of one with a picture the page says detail=low while it is moved: it may
+/// be coarser then. When it rests the page says detail=more again and again, until all rows of a
+/// picture have come. If answers take long it says effort=0.5 or less.
 struct Answer {
     Svg drawing;
     std::string summary;  ///< a sentence for those who do not see the drawing, and for those who do

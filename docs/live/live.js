@@ -11,14 +11,15 @@ live.start = async () => {
   if (!window.bookModule) await load("live_module.js");
   const bytes = Uint8Array.from(atob(window.bookModule), (c) => c.charCodeAt(0)), nothing = {};
   const module = await WebAssembly.compile(bytes);
-  // What the C library would ask of a system: there is none.
-  for (const { module: from, name } of WebAssembly.Module.imports(module)) (nothing[from] ??= {})[name] = () => 0;
+  // What the C library would ask of a system: there is none, and each call fails (ENOSYS), or it would ask again for ever.
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) (nothing[from] ??= {})[name] = () => 52;
   const make = async () => {
     const { exports } = await WebAssembly.instantiate(module, nothing);
     exports._initialize();
     return exports;
   };
   let made = make();
+  await made;
   live.ask = async (text) => {
     const code = await made, request = new TextEncoder().encode(text), began = performance.now();
     const view = (at, size) => new Uint8Array(code.memory.buffer, at, size);
@@ -27,7 +28,7 @@ live.start = async () => {
       const size = code.answer_request(), answer = JSON.parse(new TextDecoder().decode(view(code.answer_bytes(), size)));
       answer.ms = performance.now() - began;
       const { picture } = answer;
-      if (picture) picture.rgba = new Uint8ClampedArray(view(code.picture_bytes(), 4 * picture.width * picture.height));
+      if (picture) picture.rgba = new Uint8ClampedArray(view(code.picture_bytes(), 4 * picture.width * picture.rows));
       return answer;
     } catch (fault) {  // what would have been an exception ended the call: the module begins anew
       made = make();
@@ -64,13 +65,24 @@ live.play = async (box, state) => {
   const said = element("p", { className: "live-said" });  // below: its lines don't move what is dragged
   // Over the drawing, whose parts are drawn anew: points to drag, and pixels.
   const overlay = drawn("g", { class: "live-overlay" }, svg), shown = new Map();
-  let answer = null, fault = "", held = false, waits = false, resting = 0;
+  let answer = null, fault = "", held = false, waits = false, resting = 0, changes = 0;
+  // Of a figure with a picture: how much is asked for at once, and what the picture has taken so far.
+  let effort = 1, taken = null;
 
   const address = () => [id, ...[...state].map(([name, value]) => `${name}=${value}`)].join(";");
-  const rest = () => {
-    told.textContent = fault || (answer?.summary ?? "");
+  const rest = async () => {
     history.replaceState(null, "", `#${encodeURI(address())}`);
-    if (answer?.picture && !held) draw();  // in full
+    await finish();
+    told.textContent = fault || (answer?.summary ?? "");
+  };
+  const isWhole = ({ picture }) => !picture || picture.first_row + picture.rows >= picture.height;
+  // A picture at rest comes in full, in parts: between them the page answers to whatever is moved.
+  const finish = async () => {
+    for (const now = changes; answer?.picture && !fault && !held && now === changes;) {
+      await draw("more");
+      if (isWhole(answer)) return;
+      await new Promise((done) => setTimeout(done));
+    }
   };
   // Of each kind of part, those that this answer names: made where they are new, gone where they are named no more.
   const renew = (parts, make) => parts.map((part) => {
@@ -79,8 +91,9 @@ live.play = async (box, state) => {
     control.renew(part);
     return part.name;
   });
-  const draw = async (quick = false) => {
-    const next = await live.ask(address() + (quick ? ";detail=low" : ""));
+  const draw = async (detail = "low") => {
+    const began = performance.now();
+    const next = await live.ask(address().replace(id, `${id};detail=${detail};effort=${effort}`));
     fault = next.error ? `This can't be drawn (${next.error}).` : "";
     if (fault) return void (said.textContent = fault);
     const first = !answer;
@@ -90,6 +103,10 @@ live.play = async (box, state) => {
     for (const name of ["width", "height", "viewBox"]) svg.setAttribute(name, parsed.getAttribute(name));
     while (svg.firstChild !== overlay) svg.firstChild.remove();
     overlay.before(...parsed.childNodes);
+    if (first) {  // on a phone it is as narrow as its smallest text can be read
+      const sizes = [...svg.querySelectorAll("text")].map((text) => parseFloat(getComputedStyle(text).fontSize));
+      svg.style.setProperty("--narrowest", `${(9.5 / Math.min(...sizes)) * svg.viewBox.baseVal.width}px`);
+    }
     fit();
     renewSteps(box, first ? Infinity : 0);  // the last step shows most of what changes
     const { handles, points, choices, sliders, picture } = answer;
@@ -106,18 +123,30 @@ live.play = async (box, state) => {
       const next = overlay.lastElementChild?.closest(".live-dot") ?? bar.querySelector("select, input, button");
       if (hadFocus) next.focus({ preventScroll: true });
     }
-    const speed = picture?.rays ? `, ${(picture.rays / answer.ms / 1000).toFixed(2)} million rays a second` : "";
-    const { summary } = answer, asTold = lastStep.endsWith(summary) ? "as-told" : "";
-    said.replaceChildren(element("span", { className: asTold, textContent: `${summary} ` }), `(${answer.ms.toFixed(1)}\u00a0ms${speed})`);
+    svg.getBoundingClientRect();  // where its parts are is part of the time
+    const ms = performance.now() - began, { summary } = answer;
+    let time = `drawn in ${ms.toFixed(1)}\u00a0ms`;
+    if (picture) {
+      effort = Math.min(1, effort * (ms > 35 ? 0.7 : ms < 20 ? 1.4 : 1));
+      const before = picture.first_row ? taken : { rays: 0, tracing: 0, ms: 0, most: 0 };
+      taken = { rays: before.rays + picture.rays, tracing: before.tracing + answer.ms, ms: before.ms + ms, most: Math.max(before.most, ms) };
+      if (!isWhole(answer)) return;
+      if (picture.first_row) time = `drawn in ${taken.ms.toFixed(0)}\u00a0ms, at most ${taken.most.toFixed(0)}\u00a0ms at once`;
+      time += `, ${(taken.rays / taken.tracing / 1000).toFixed(2)} million rays a second`;
+    }
+    const asTold = lastStep.endsWith(summary) ? "as-told" : "";
+    said.replaceChildren(element("span", { className: asTold, textContent: `${summary} ` }), `(${time})`);
+    if (state.size) said.append(element("span", { className: "live-printed", textContent: "The caption tells of the figure as the book has it." }));
   };
   const again = () => {
+    ++changes;
     clearTimeout(resting);
     resting = setTimeout(rest, live.rest);
     if (waits) return;
     waits = true;
     requestAnimationFrame(() => {
       waits = false;
-      draw(Boolean(answer?.picture));
+      draw();
     });
   };
   const change = (name, value) => {
@@ -211,8 +240,13 @@ live.play = async (box, state) => {
     const canvas = element("canvas", {}, frame), control = { parts: [frame], canvas, renew: (picture) => {
       const { corner: [x, y], size: [width, height] } = picture;
       for (const [name, value] of Object.entries({ x, y, width, height })) frame.setAttribute(name, value);
-      [canvas.width, canvas.height] = [picture.width, picture.height];
-      canvas.getContext("2d").putImageData(new ImageData(picture.rgba, picture.width, picture.height), 0, 0);
+      const paper = canvas.getContext("2d"), before = canvas.cloneNode();
+      if (canvas.width !== picture.width) {  // the coarse picture stays where the finer one has no rows yet
+        before.getContext("2d").drawImage(canvas, 0, 0);
+        [canvas.width, canvas.height] = [picture.width, picture.height];
+        paper.drawImage(before, 0, 0, canvas.width, canvas.height);
+      }
+      if (picture.rows) paper.putImageData(new ImageData(picture.rgba, picture.width), 0, picture.first_row);
     } };
     const turn = ({ name, least, most }, i, to) => {
       const span = most - least, round = least + (((to - least) % span) + span) % span;
@@ -291,6 +325,7 @@ live.play = async (box, state) => {
     again();
   };
   await draw();
+  finish();
 };
 
 // Which way an arrow key goes, to the right and upwards, ten times as far with Shift; nothing for another key.
@@ -320,14 +355,11 @@ live.hold = (event, target, move, hold) => {
   for (const [name, listener] of Object.entries(listeners)) target.addEventListener(name, listener);
 };
 
-// "#fig_07_17;ray=1,2" -> its id and state; nothing where it is no address of ours.
+// "#fig_07_17;ray=1,2" -> its id and state.
 live.address = () => {
-  try {
-    const [id, ...parts] = decodeURIComponent(location.hash.slice(1)).split(";");
-    return [id, new Map(parts.filter((part) => part.includes("=")).map((part) => part.split(/=(.*)/s).slice(0, 2)))];
-  } catch {
-    return ["", new Map()];
-  }
+  mendAddress();
+  const [id, ...parts] = decodeURIComponent(location.hash.slice(1)).split(";");
+  return [id, new Map(parts.filter((part) => part.includes("=")).map((part) => part.split(/=(.*)/s).slice(0, 2)))];
 };
 live.follow = async () => {
   const [id, state] = live.address(), box = [...document.querySelectorAll("[data-live]")].find((each) => each.dataset.live === id);

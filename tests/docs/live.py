@@ -4,7 +4,8 @@ random states. Prints a line per fault, and how long the slowest answer took; ex
 
 Mouse, keys and fingers play with a figure that has a kind of part which no figure before it had; LIVE=all: with each.
 
-Run: live.py SITE FIGURES; LIVE_STATES says how many random states a figure (25; hundreds take minutes)."""
+Run: live.py SITE FIGURES; LIVE_STATES says how many random states a figure (25; hundreds take minutes). LIVE_TIMES=100 tests
+nothing, and tells how long a figure takes to follow its reader, over so many drags and other changes of each."""
 
 import os
 import pathlib
@@ -41,6 +42,11 @@ helpers = """
     window.parts = () => [...svg().children].filter((child) => !child.matches(".live-overlay"));
     window.pixels = () => svg().querySelector("canvas")?.toDataURL() ?? "";
     window.picture = () => parts().map((child) => child.outerHTML).join() + pixels();
+    window.painted = () => new Promise((done) => requestAnimationFrame(() => {
+        const { port1, port2 } = new MessageChannel();
+        port1.onmessage = done;  // the first task after the frame
+        port2.postMessage(0);
+    }));
     window.settled = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
     // A seeded generator (mulberry32), so that a fault comes again.
     window.generator = (seed) => () => {
@@ -90,14 +96,53 @@ helpers = """
         let answer = await live.ask(id);
         const hard = hard_states(answer);
         for (let k = -hard.length; k < count; ++k) {
-            const state = k < 0 ? hard.at(k) : some_state(answer, random) + (random() < 0.3 ? ";detail=low" : "");
+            const state = k < 0 ? hard.at(k) : some_state(answer, random) + (random() < 0.3 ? ";detail=more" : "");
             const request = `${id};${state}`, next = await live.ask(request);
             if (next.error) faults.push(`${request}: ${next.error}`);
             else times.push(next.ms), answer = next;
             if (!next.error && (!next.summary || /NaN|inf/.test(next.svg))) faults.push(`${request}: no summary, or no number`);
+            if (!next.error && !next.picture && next.sliders.some(({ step, value }) => step === 1 && value % 1))
+                faults.push(`${request}: a slider of whole numbers shows another`);
         }
         times.sort((a, b) => a - b);
         return { faults: faults.slice(0, 3), median: times[times.length >> 1], worst: times.at(-1), bytes: answer.svg.length };
+    };
+    // COUNT changes at random times, each when the one before has been painted: from the reader's move to the end of the frame
+    // that shows it, and how much of it the page's thread took to draw (live.ask and all of what draw() does).
+    window.reactions = async (count, seed) => {
+        Element.prototype.setPointerCapture = () => {};  // there is no true pointer
+        const random = generator(seed), pick = (list) => list[Math.floor(random() * list.length)];
+        const inFrame = () => [...dots(), ...svg().querySelectorAll("canvas")];
+        const kinds = { drags: inFrame, sliders: () => [...bar().querySelectorAll("input")], lists: () => [...bar().querySelectorAll("select")] };
+        const times = { drags: [], sliders: [], lists: [] };
+        for (let k = 0; k < count; ++k) {
+            const kind = k % 10 === 9 ? "lists" : inFrame().length && k % 5 ? "drags" : "sliders", parts = kinds[kind]();
+            if (!parts.length) continue;
+            let part = pick(parts);
+            const pointer = (what, [clientX, clientY]) =>
+                part.dispatchEvent(new PointerEvent(`pointer${what}`, { bubbles: true, pointerId: 1, clientX, clientY }));
+            const { left, top, width, height } = svg().getBoundingClientRect();
+            const to = [left + random() * width, top + random() * height];
+            if (kind === "drags") {
+                pointer("down", centre(part));
+                part = document.activeElement;  // the nearest
+            }
+            await new Promise((done) => setTimeout(done, 17 * random()));
+            const began = performance.now();
+            if (kind === "drags") pointer("move", to);
+            else if (kind === "lists") {
+                part.selectedIndex = Math.floor(random() * part.options.length);
+                part.dispatchEvent(new Event("change"));
+            } else {
+                part.value = Number(part.min) + random() * (part.max - part.min);
+                part.dispatchEvent(new Event("input"));
+            }
+            await painted();
+            times[kind].push(performance.now() - began);
+            if (kind === "drags") pointer("up", to);
+            await settled();
+        }
+        return times;
     };
     // How a screenshot looks from afar, 24 x 24 grey values; and how many colours it has.
     window.from_afar = async (png) => {
@@ -241,6 +286,8 @@ def play(name):
             return seen;
         }})()""")
         changes += any(picture != before for picture in shown)
+    if not chromium.run("return box.parentElement.querySelector('.live-printed')"):
+        fault(name, "does not say that its caption tells of another")
     if controls and not changes:  # one of several may change nothing: straddlers, where none are
         fault(name, "no control changes anything")
     if chromium.run("return svg().querySelector('.live-paper') !== null"):
@@ -248,6 +295,9 @@ def play(name):
     if chromium.run("return svg().querySelector('canvas') !== null"):
         middle = chromium.run("return centre(svg().querySelector('canvas'))")
         expect_change(name, "dragging the picture", lambda: drag(middle, (60, 20)))
+        chromium.run("box.renew(new Map([['detail', 'low']]))")  # that is the page's to say
+        if not chromium.wait("said().includes('at most')"):
+            fault(name, "has no finer picture when it rests")
     if not chromium.wait("decodeURIComponent(location.hash).startsWith('#%s;')" % name, 3):
         fault(name, "its state is not in the address")
     if not chromium.wait("bar().querySelector('[role=status]').textContent", 3):
@@ -283,7 +333,7 @@ def move_by_keys(name):
 
 def touch_it(name):
     """On a phone, in the dark: a finger moves a point and not the page, and nothing sticks out."""
-    open_figure(name, 390, "dark", "")
+    open_figure(name, 390, "dark", ";of=%")
     if chromium.run("return document.documentElement.scrollWidth > document.documentElement.clientWidth"):
         fault(name, "makes a phone's page wider than its window")
     if chromium.run("return dots().length"):
@@ -314,8 +364,40 @@ def without_module(name):
     chromium.driver.get_log("browser")
 
 
+def read_addresses(name):
+    """What can't be read of an address is left out, and the rest is not."""
+    chromium.run(f"history.replaceState(null, '', '#{name};a=3%;b=1,2;c=%41=;%ff=1')")
+    read = chromium.run("const [id, state] = live.address(); return [id, Object.fromEntries(state)]")
+    if read != [name, {"b": "1,2", "c": "A="}]:
+        fault(name, f"reads {read} in an address of which a part is wrong")
+
+
+def tell_times(changes):
+    """Two lines a figure: how long its reader waits."""
+    print("from a move to the end of the frame that shows it, in ms: median, 95 %, worst")
+    for name in where:
+        open_figure(name, 1280, "light", "")
+        chromium.wait("said()")
+        times = chromium.run(f"return reactions({changes}, 1)")
+        told = []
+        for kind, all_times in times.items():
+            if all_times:
+                all_times.sort()
+                at = [all_times[len(all_times) // 2], all_times[len(all_times) * 95 // 100], all_times[-1]]
+                told.append(f"{len(all_times)} {kind} " + ", ".join(f"{t:.0f}" for t in at))
+        print(f"{name}: {'; '.join(told)}", flush=True)
+        if chromium.run("return svg().querySelector('canvas') !== null"):
+            chromium.run("box.renew(new Map())")
+            chromium.wait("said().includes('at most')")
+            print(f"{name}, at rest: {chromium.run('return said()')}")
+
+
 kinds = """return ['.live-dot', '.live-paper', 'canvas'].filter((part) => svg().querySelector(part)).concat(
     ['select', 'input'].filter((part) => bar().querySelector(part)))"""
+if changes := int(os.environ.get("LIVE_TIMES", 0)):
+    tell_times(changes)
+    chromium.driver.quit()
+    sys.exit(0)
 states, slowest, played = int(os.environ.get("LIVE_STATES", 25)), 0, set()
 for name in where:
     if look_at_start(name):
@@ -331,6 +413,7 @@ for name in where:
             touch_it(name)
             played |= parts
     chromium.look_at_logs(name)
+read_addresses(name)
 without_module(next(iter(where)))
 size = (site / "live_module.js").stat().st_size * 3 / 4
 print(f"the module: {size / 1e6:.2f} MB")

@@ -12,8 +12,9 @@ Svg fig_12_14(const Options&) {
     turn(scene, first_turn, first_tilt);
     const auto bvh = Bvh<BinnedBuilder>::build(scene.mesh.triangles());
     Svg svg = turned_drawing(Shown::nodes);
-    svg.picture(turned_corner, turned_size,
-                traced_picture(scene, bvh, Shown::nodes, 320, 240).image, "picture");
+    TracedPicture picture{.image = {320, 240}};
+    for (int y = 0; y < 240; ++y) trace_row(scene, bvh, Shown::nodes, y, picture);
+    svg.picture(turned_corner, turned_size, picture.image, "picture");
     return svg;
 }
 

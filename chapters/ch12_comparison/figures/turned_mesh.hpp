@@ -40,22 +40,22 @@ inline constexpr std::size_t most_shown = 80;
 /// The colours of 0, 1, .. most_shown of them.
 std::vector<Color> shown_colors();
 
-// [traced_picture]
-/// A picture, and what its rays did; light takes shadow rays, too.
+// [trace_row]
+/// A picture, and what its rays have done; light takes shadow rays, too.
 struct TracedPicture {
     Image image;
     std::uint64_t rays = 0;
     TraversalCounts counts = {};
 };
 
+/// One row of its pixels: a page that lets its reader wait traces a few at a time.
 template <Accelerator A>
-TracedPicture traced_picture(const Scene& scene, const A& accelerator, Shown shown, int width,
-                             int height) {
-    const PixelGrid grid(scene.camera, width, height);
-    const std::vector<Color> colors = shown_colors();
-    TracedPicture picture{.image = {width, height}};
+void trace_row(const Scene& scene, const A& accelerator, Shown shown, int y,
+               TracedPicture& picture) {
+    static const std::vector<Color> colors = shown_colors();
+    const PixelGrid grid(scene.camera, picture.image.width(), picture.image.height());
     RenderCounts rays;
-    grid.for_each([&](int x, int y) {
+    for (int x = 0; x < grid.width; ++x) {
         const Ray ray = grid.ray(x, y);
         TraversalCounts counts;
         if (shown == Shown::light) {
@@ -68,11 +68,10 @@ TracedPicture traced_picture(const Scene& scene, const A& accelerator, Shown sho
         }
         picture.counts += counts;
         ++picture.rays;
-    });
+    }
     picture.rays += rays.shadow_rays;
-    return picture;
 }
-// [traced_picture]
+// [trace_row]
 
 /// Where the picture is in its drawing.
 inline constexpr Point2 turned_corner{8.0f, 8.0f};

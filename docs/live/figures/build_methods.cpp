@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace space::live {
 
@@ -15,7 +14,8 @@ Answer build_methods(const State& state) {
         make_building(scene, 1, 1);
         return ch08::formula_graph(scene.mesh.triangles());
     }();
-    std::vector<Slider> sliders;
+    const std::size_t cores = state.whole("cores", 4, 2, 16);
+    std::vector<Slider> sliders{{"cores", "Cores", double(cores), 2.0, 16.0, 1.0}};
     const auto slider = [&](std::string name, std::string label, double first, double least,
                             double most, double step) {
         const double value = state.number(name, first, least, most);
@@ -23,7 +23,6 @@ Answer build_methods(const State& state) {
         return value;
     };
     SchedulingCosts costs = ch08::formula_costs;
-    const double cores = std::round(slider("cores", "Cores", 4.0, 2.0, 16.0, 1.0));
     costs.thread_start = 1e3 * slider("start", "To start a thread, µs", 15.0, 0.0, 200.0, 5.0);
     costs.lock = slider("lock", "To hold the queue's lock, ns", 100.0, 0.0, 2'000.0, 50.0);
     costs.steal = 1e3 * slider("steal", "To steal, µs", 2.0, 0.0, 50.0, 1.0);

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace space::live {
 namespace {
 
@@ -18,20 +16,21 @@ constexpr std::array rows{"denser to one side"sv, "two rows, each the other's mi
 
 Answer build_steps(const State& state) {
     std::vector<Slider> sliders;
-    const auto whole = [&](std::string name, std::string label, double first, double least,
-                           double most) {
-        const double value = std::round(state.number(name, first, least, most));
-        sliders.push_back({std::move(name), std::move(label), value, least, most, 1.0});
+    const auto whole = [&](std::string name, std::string label, std::size_t first,
+                           std::size_t least, std::size_t most) {
+        const std::size_t value = state.whole(name, first, least, most);
+        sliders.push_back(
+            {std::move(name), std::move(label), double(value), double(least), double(most), 1.0});
         return static_cast<unsigned>(value);
     };
     ParallelMethod method = ch08::stealing_method;
     const unsigned cores = whole("cores", "Cores", ch08::stealing_cores, 2, 8);
     const double steal = whole("steal", "Time to steal", ch08::stealing_cost, 0, 20);
     method.grain = whole("grain", "One core makes all below nodes of at most so many segments",
-                         double(method.grain), 1, 16);
-    method.chunk = whole("chunk", "Segments in a part of such a node", double(method.chunk), 1, 16);
-    method.large = whole("large", "All cores together make nodes of more segments than",
-                         double(method.large), 1, 16);
+                         method.grain, 1, 16);
+    method.chunk = whole("chunk", "Segments in a part of such a node", method.chunk, 1, 16);
+    method.large =
+        whole("large", "All cores together make nodes of more segments than", method.large, 1, 16);
     const std::size_t row = state.choice("row", 0, rows);
     const TaskGraph graph = row == 0 ? ch08::lopsided_graph() : ch08::mirrored_graph();
     const Schedule schedule = simulate(graph, method, cores, {.steal = steal});

@@ -67,7 +67,7 @@ Answer kd_build(const State& state) {
                       first = state.choice("first", 0, first_planes),
                       part = state.choice("straddlers", 0, straddlers_named);
     constexpr std::array of_rule{Rule::middle, Rule::middle, Rule::median, Rule::sah};
-    const auto depth = static_cast<std::size_t>(state.number("depth", 4.0, 1.0, 6.0));
+    const std::size_t depth = state.whole("depth", 4, 1, 6);
     const KdTreeConfig config{.rule = of_rule[rule],
                               .straddlers = part == 0 ? Straddlers::clip : Straddlers::duplicate,
                               .max_leaf_size = 1,

@@ -55,12 +55,11 @@ Answer lazy_rays(const State& state) {
     asked.fan = by == 1;
     constexpr std::array of_rule{Rule::median, Rule::middle, Rule::sah};
     asked.rule = of_rule[rule];
-    asked.max_depth =
-        static_cast<std::size_t>(state.number("depth", double(asked.max_depth), 1.0, 5.0));
+    asked.max_depth = state.whole("depth", asked.max_depth, 1, 5);
     std::vector<Slider> sliders{{"depth", "Depth at most", double(asked.max_depth), 1.0, 5.0, 1.0}};
     PlaneHandles handles(state);
     if (asked.fan) {
-        const auto count = static_cast<std::size_t>(state.number("count", 12.0, 2.0, 48.0));
+        const std::size_t count = state.whole("count", 12, 2, 48);
         sliders.push_back({"count", "Rays of the fan", double(count), 2.0, 48.0, 1.0});
         asked.rays = fan_of(handles, count);
     } else {

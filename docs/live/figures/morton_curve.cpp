@@ -6,7 +6,7 @@ namespace space::live {
 
 Answer morton_curve(const State& state) {
     ch06::CurveScene scene;
-    scene.depth = static_cast<std::uint32_t>(state.number("depth", double(scene.depth), 1.0, 5.0));
+    scene.depth = static_cast<std::uint32_t>(state.whole("depth", scene.depth, 1, 5));
     PlaneHandles handles(state);
     // At the square's middle nothing is asked yet: the figure is the book's.
     const Point2 at = handles.at(ch06::curve_view(), Double2(ch06::square_of_curve), "at",

@@ -15,7 +15,7 @@ Answer point_searches(const State& state) {
     const Point2 one = point(1, "corner", "a corner of the box", asked.box.min),
                  other = point(1, "opposite", "the opposite corner of the box", asked.box.max);
     asked.box = {glm::min(one, other), glm::max(one, other)};
-    asked.k = static_cast<std::size_t>(state.number("k", double(asked.k), 1.0, 12.0));
+    asked.k = state.whole("k", asked.k, 1, 12);
     ch04::DrawnSearches drawn = ch04::drawn_searches(asked);
     return {.drawing = std::move(drawn.drawing),
             .summary = std::move(drawn.tells),

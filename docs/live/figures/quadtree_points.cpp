@@ -9,8 +9,8 @@ Answer quadtree_points(const State& state) {
         points = state.points("points", first, 0.0, 16.0, 16);
     scene.points.assign(points.begin(), points.end());
     auto& [leaf_size, max_depth, skips] = scene.config;
-    leaf_size = static_cast<std::size_t>(state.number("leaf", double(leaf_size), 1.0, 4.0));
-    max_depth = static_cast<std::uint32_t>(state.number("depth", double(max_depth), 1.0, 6.0));
+    leaf_size = state.whole("leaf", leaf_size, 1, 4);
+    max_depth = static_cast<std::uint32_t>(state.whole("depth", max_depth, 1, 6));
     const PlaneView view = ch06::points_view();
     ch06::DrawnPoints drawn = ch06::drawn_points(scene);
     return {.drawing = std::move(drawn.drawing),

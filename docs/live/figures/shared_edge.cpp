@@ -72,8 +72,8 @@ Answer shared_edge(const State& state) {
     handles.push_back({"at", "where the rays are aimed", how == 0 ? on_edge : wanted,
                        ch02::edge_zero, ch02::edge_unit});
 
-    const double wide = state.number("wide", 0, 0, widest);
-    scene.step = std::ldexp(ch02::edge_step(scene.aim), static_cast<int>(std::lround(wide)));
+    const std::size_t wide = state.whole("wide", 0, 0, widest);
+    scene.step = std::ldexp(ch02::edge_step(scene.aim), static_cast<int>(wide));
     scene.tests = {state.choice("left", ch02::edge_tests[0], ch02::drawn_test_names),
                    state.choice("middle", ch02::edge_tests[1], ch02::drawn_test_names),
                    ch02::edge_tests[2]};
@@ -86,14 +86,14 @@ Answer shared_edge(const State& state) {
                        ch02::glass_square * Double2(1.0, -1.0)});
 
     const std::array<EdgeVerdicts, 3> verdicts = ch02::edge_verdicts(scene);
-    return {
-        .drawing = ch02::drawn_edge(scene, verdicts),
-        .summary = summed_up(scene, verdicts, place),
-        .handles = std::move(handles),
-        .choices = {{"left", "On the left", ch02::drawn_test_names, scene.tests[0]},
-                    {"middle", "In the middle", ch02::drawn_test_names, scene.tests[1]},
-                    {"aim", "Rays aimed", aims, how}},
-        .sliders = {{"wide", "Glass, from neighbouring floats to the whole", wide, 0, widest, 1}}};
+    return {.drawing = ch02::drawn_edge(scene, verdicts),
+            .summary = summed_up(scene, verdicts, place),
+            .handles = std::move(handles),
+            .choices = {{"left", "On the left", ch02::drawn_test_names, scene.tests[0]},
+                        {"middle", "In the middle", ch02::drawn_test_names, scene.tests[1]},
+                        {"aim", "Rays aimed", aims, how}},
+            .sliders = {{"wide", "Glass, from neighbouring floats to the whole", double(wide), 0,
+                         widest, 1}}};
 }
 
 }  // namespace space::live

@@ -19,6 +19,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace space::live {
 namespace {
@@ -29,15 +30,15 @@ using ch12::TracedPicture;
 
 /// A structure that stands, whatever its type.
 struct Standing {
-    std::function<TracedPicture(const Scene&, Shown, int, int)> traced;
+    std::function<void(const Scene&, Shown, int, TracedPicture&)> trace_row;
     std::function<TreeShape()> shape;
 };
 
 template <class A>
 Standing standing(std::span<const Triangle> triangles, const typename A::Config& config = {}) {
     const auto tree = std::make_shared<const A>(A::build(triangles, config));
-    return {[tree](const Scene& scene, Shown shown, int width, int height) {
-                return ch12::traced_picture(scene, *tree, shown, width, height);
+    return {[tree](const Scene& scene, Shown shown, int y, TracedPicture& picture) {
+                ch12::trace_row(scene, *tree, shown, y, picture);
             },
             [tree] { return tree->shape(); }};
 }
@@ -73,12 +74,30 @@ Standing built(std::size_t structure, std::span<const Triangle> triangles) {
     }
 }
 
-/// One mesh, and the structures over it that were asked for.
+/// What a picture is of.
+struct View {
+    std::size_t structure;
+    Shown shown;
+    bool in_full;
+    double turn, tilt;
+
+    bool operator==(const View&) const = default;
+};
+
+/// A picture that is made in parts: so many of its rows stand.
+struct Begun {
+    View view;
+    TracedPicture picture;
+    int rows = 0;
+};
+
+/// One mesh, the structures over it that were asked for, and the picture that is being made.
 struct Kept {
     std::size_t mesh;
     Scene scene;
     std::vector<Triangle> triangles;
     std::map<std::size_t, Standing> standing = {};
+    std::optional<Begun> begun = {};
 };
 
 Kept& kept(std::size_t mesh) {
@@ -91,27 +110,48 @@ Kept& kept(std::size_t mesh) {
     return kept;
 }
 
-/// As many pixels as there is time for: about so many tests, by what a coarse picture took. A node
-/// costs as much as two tests, and a ray as much as ten besides.
-TracedPicture in_time(const Standing& standing, const Scene& scene, Shown shown, double tests) {
-    constexpr std::array widths{640, 480, 400, 320, 240, 200, 160, 120, 100, 80, 60, 40};
-    constexpr int coarse_width = 24, coarse_height = 18;
-    TracedPicture coarse = standing.traced(scene, shown, coarse_width, coarse_height);
-    const double pixel = (2.0 * double(coarse.counts.nodes_visited) +
-                          double(coarse.counts.triangles_tested) + 10.0 * double(coarse.rays)) /
-                         (coarse_width * coarse_height);
-    for (const int width : widths)
-        if (pixel * width * width * 0.75 <= tests)
-            return standing.traced(scene, shown, width, width * 3 / 4);
-    return coarse;
+/// Of a picture that is moved, or of a part of one that rests; and of all its parts.
+constexpr double cost_at_once = 1.5e6, cost_in_full = 12e6;
+
+/// What a picture has taken, in tests of a triangle: a node costs as much as two, and a ray as much
+/// as ten besides.
+double cost(const TracedPicture& picture) {
+    return 2.0 * double(picture.counts.nodes_visited) + double(picture.counts.triangles_tested) +
+           10.0 * double(picture.rays);
 }
 
-std::vector<std::uint8_t> rgba(const Image& image) {
-    const std::vector<std::uint8_t> rgb = srgb_bytes(image);
+/// Traces rows from the first one on, until that has cost enough; the row after them.
+int trace_rows(const Standing& standing, const Scene& scene, Shown shown, int y,
+               TracedPicture& picture, double enough) {
+    const double before = cost(picture);
+    while (y < picture.image.height() && cost(picture) - before < enough)
+        standing.trace_row(scene, shown, y++, picture);
+    return y;
+}
+
+/// As many pixels as cost about so much, by what a small picture costs.
+TracedPicture empty_picture(const Standing& standing, const Scene& scene, Shown shown,
+                            double affordable) {
+    constexpr std::array widths{640, 480, 400, 320, 240, 200, 160, 120, 100, 80, 60, 40, 24};
+    constexpr int smallest = 16;
+    TracedPicture small{.image = {smallest, smallest * 3 / 4}};
+    trace_rows(standing, scene, shown, 0, small, infinity);
+    for (const int width : widths)
+        if (cost(small) * width * width <= affordable * smallest * smallest)
+            return {.image = {width, width * 3 / 4}};
+    return {.image = {smallest, smallest * 3 / 4}};
+}
+
+/// Some of its rows, from one on.
+std::vector<std::uint8_t> rgba(const Image& image, int first, int end) {
     std::vector<std::uint8_t> bytes;
-    bytes.reserve(rgb.size() / 3 * 4);
-    for (std::size_t i = 0; i < rgb.size(); i += 3)
-        bytes.insert(bytes.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+    bytes.reserve(4 * std::size_t(image.width()) * std::size_t(end - first));
+    for (int y = first; y < end; ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const glm::vec3& color = image.at(x, y);
+            bytes.insert(bytes.end(),
+                         {srgb_byte(color.x), srgb_byte(color.y), srgb_byte(color.z), 255});
+        }
     return bytes;
 }
 
@@ -138,26 +178,40 @@ Answer turned_mesh(const State& state) {
     double turn = state.number("turn", ch12::first_turn, -1e6, 1e6);
     turn -= 360.0 * std::floor((turn + 180.0) / 360.0);
     const double tilt = state.number("tilt", ch12::first_tilt, -85.0, 85.0);
-    static constexpr std::array details{"high"sv, "low"sv};
-    const bool is_held = state.choice("detail", 0, details) == 1;
+    static constexpr std::array details{"low"sv, "more"sv};
+    const bool in_full = state.choice("detail", 0, details) == 1;
+    const double enough = cost_at_once * state.number("effort", 1.0, 1e-3, 1.0);
 
     Kept& mesh_kept = kept(mesh);
     ch12::turn(mesh_kept.scene, turn, tilt);
     auto found = mesh_kept.standing.find(structure);
     if (found == mesh_kept.standing.end())
         found = mesh_kept.standing.emplace(structure, built(structure, mesh_kept.triangles)).first;
-    const Shown shown{static_cast<int>(show)};
-    const TracedPicture picture =
-        in_time(found->second, mesh_kept.scene, shown, is_held ? 1.5e6 : 12e6);
-    return {.drawing = ch12::turned_drawing(shown),
-            .summary = told(mesh_kept, found->second, picture),
+    const Standing& standing = found->second;
+    const Scene& scene = mesh_kept.scene;
+    const View view{structure, Shown(show), in_full, turn, tilt};
+    std::optional<Begun>& begun = mesh_kept.begun;
+    if (!in_full || !begun || begun->view != view)
+        begun = Begun{view,
+                      empty_picture(standing, scene, view.shown, in_full ? cost_in_full : enough)};
+    auto& [of, picture, rows] = *begun;
+    const int first_row = rows;
+    const double rays_before = double(picture.rays);
+    rows = trace_rows(standing, scene, view.shown, first_row, picture, in_full ? enough : infinity);
+    return {.drawing = ch12::turned_drawing(view.shown),
+            .summary = told(mesh_kept, standing, picture),
             .choices = {{"mesh", "Mesh", ch12::turned_mesh_names, mesh},
                         {"structure", "Structure", structures, structure},
                         {"show", "Each pixel shows", ch12::shown_names, show}},
             .sliders = {{"turn", "Turn", turn, -180.0, 180.0, 1.0},
                         {"tilt", "Tilt", tilt, -85.0, 85.0, 1.0}},
-            .picture = Picture{ch12::turned_corner, ch12::turned_size, picture.image.width(),
-                               picture.image.height(), rgba(picture.image), double(picture.rays)}};
+            .picture = Picture{.corner = ch12::turned_corner,
+                               .size = ch12::turned_size,
+                               .width = picture.image.width(),
+                               .height = picture.image.height(),
+                               .rgba = rgba(picture.image, first_row, rows),
+                               .first_row = first_row,
+                               .rays = double(picture.rays) - rays_before}};
 }
 
 }  // namespace space::live
