@@ -98,11 +98,13 @@ live.play = async (box, state) => {
     if (fault) return void (said.textContent = fault);
     const first = !answer;
     answer = next;
-    const parsed = document.importNode(new DOMParser().parseFromString(answer.svg, "image/svg+xml").documentElement, true);
+    const parsed = element("template", { innerHTML: answer.svg }).content.firstElementChild;
     const lastStep = [...parsed.querySelectorAll("desc")].at(-1)?.textContent ?? "";
     for (const name of ["width", "height", "viewBox"]) svg.setAttribute(name, parsed.getAttribute(name));
-    while (svg.firstChild !== overlay) svg.firstChild.remove();
-    overlay.before(...parsed.childNodes);
+    // All but its style, which is always the same: with another one a browser looks at the whole page anew.
+    const style = svg.querySelector(":scope > style"), stays = style?.textContent === parsed.querySelector("style")?.textContent;
+    for (const part of [...svg.childNodes]) if (part !== overlay && !(stays && part === style)) part.remove();
+    overlay.before(...[...parsed.childNodes].filter(({ nodeName }) => !(stays && nodeName === "style")));
     if (first) {  // on a phone it is as narrow as its smallest text can be read
       const sizes = [...svg.querySelectorAll("text")].map((text) => parseFloat(getComputedStyle(text).fontSize));
       svg.style.setProperty("--narrowest", `${(9.5 / Math.min(...sizes)) * svg.viewBox.baseVal.width}px`);

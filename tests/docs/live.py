@@ -101,6 +101,9 @@ helpers = """
             if (next.error) faults.push(`${request}: ${next.error}`);
             else times.push(next.ms), answer = next;
             if (!next.error && (!next.summary || /NaN|inf/.test(next.svg))) faults.push(`${request}: no summary, or no number`);
+            // What was drawn before changes nothing: the same picture again.
+            if (k % 8 === 0 && next.picture && !/detail=more/.test(state) && (await live.ask(request)).picture.rgba.some((byte, i) => byte !== next.picture.rgba[i]))
+                faults.push(`${request}: has another picture the second time`);
             if (!next.error && !next.picture && next.sliders.some(({ step, value }) => step === 1 && value % 1))
                 faults.push(`${request}: a slider of whole numbers shows another`);
         }

@@ -95,17 +95,19 @@ struct Begun {
 struct Kept {
     std::size_t mesh;
     Scene scene;
+    Camera first_camera;  ///< the scene's own, from which it is turned
     std::vector<Triangle> triangles;
     std::map<std::size_t, Standing> standing = {};
     std::optional<Begun> begun = {};
 };
 
 Kept& kept(std::size_t mesh) {
-    static Kept kept{ch12::turned_mesh_names.size(), {}, {}};
+    static Kept kept{ch12::turned_mesh_names.size(), {}, {}, {}};
     if (kept.mesh != mesh) {
         Scene scene = ch12::turned_mesh(ch12::TurnedMesh(mesh));
         std::vector<Triangle> triangles = scene.mesh.triangles();
-        kept = {mesh, std::move(scene), std::move(triangles)};
+        const Camera camera = scene.camera;
+        kept = {mesh, std::move(scene), camera, std::move(triangles)};
     }
     return kept;
 }
@@ -183,6 +185,7 @@ Answer turned_mesh(const State& state) {
     const double enough = cost_at_once * state.number("effort", 1.0, 1e-3, 1.0);
 
     Kept& mesh_kept = kept(mesh);
+    mesh_kept.scene.camera = mesh_kept.first_camera;
     ch12::turn(mesh_kept.scene, turn, tilt);
     auto found = mesh_kept.standing.find(structure);
     if (found == mesh_kept.standing.end())
