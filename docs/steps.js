@@ -28,7 +28,7 @@ function stepThrough(list, at = 0, tells = true) {
     for (const group of groups) {
       const shown = now >= Number(group.dataset.first) && now <= Number(group.dataset.last ?? last);
       if (shown) group.removeAttribute("display");
-      else group.setAttribute("display", "none");
+      else if (!group.hasAttribute("display")) group.setAttribute("display", "none");  // the same once more costs time, too
     }
     items.forEach((item, i) => item.classList.toggle("now", i === now));
     count.textContent = `${now + 1} of ${last + 1}`;

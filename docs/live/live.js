@@ -109,7 +109,6 @@ live.play = async (box, state) => {
       const sizes = [...svg.querySelectorAll("text")].map((text) => parseFloat(getComputedStyle(text).fontSize));
       svg.style.setProperty("--narrowest", `${(9.5 / Math.min(...sizes)) * svg.viewBox.baseVal.width}px`);
     }
-    fit();
     renewSteps(box, first ? Infinity : 0);  // the last step shows most of what changes
     const { handles, points, choices, sliders, picture } = answer;
     const byHand = points ? points.values.map((value, i) => (
@@ -125,7 +124,7 @@ live.play = async (box, state) => {
       const next = overlay.lastElementChild?.closest(".live-dot") ?? bar.querySelector("select, input, button");
       if (hadFocus) next.focus({ preventScroll: true });
     }
-    svg.getBoundingClientRect();  // where its parts are is part of the time
+    fit();  // once, at the end: the browser finds now where all parts are
     const ms = performance.now() - began, { summary } = answer;
     let time = `drawn in ${ms.toFixed(1)}\u00a0ms`;
     if (picture) {
