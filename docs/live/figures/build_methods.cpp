@@ -25,7 +25,7 @@ Answer build_methods(const State& state) {
     SchedulingCosts costs = ch08::formula_costs;
     costs.thread_start = 1e3 * slider("start", "To start a thread, µs", 15.0, 0.0, 200.0, 5.0);
     costs.lock = slider("lock", "To hold the queue's lock, ns", 100.0, 0.0, 2'000.0, 50.0);
-    costs.steal = 1e3 * slider("steal", "To steal, µs", 2.0, 0.0, 50.0, 1.0);
+    costs.steal = 1e3 * slider("steal", "To steal, µs", 2.0, 0.0, 50.0, 0.5);
     costs.bandwidth_share =
         slider("memory", "One core's share of the memory's speed", 0.0, 0.0, 1.0, 0.05);
     const auto schedules = ch08::four_schedules(graph, static_cast<unsigned>(cores), costs);
