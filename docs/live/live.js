@@ -128,7 +128,7 @@ live.play = async (box, state) => {
     const ms = performance.now() - began, { summary } = answer;
     let time = `drawn in ${ms.toFixed(1)}\u00a0ms`;
     if (picture) {
-      effort = Math.min(1, effort * (ms > 35 ? 0.7 : ms < 20 ? 1.4 : 1));
+      effort = Math.min(1, Math.max(1 / 16, effort * (ms > 35 ? 0.7 : ms < 20 ? 1.4 : 1)));  // not without end where all is slow
       const before = picture.first_row ? taken : { rays: 0, tracing: 0, ms: 0, most: 0 };
       taken = { rays: before.rays + picture.rays, tracing: before.tracing + answer.ms, ms: before.ms + ms, most: Math.max(before.most, ms) };
       if (!isWhole(answer)) return;
